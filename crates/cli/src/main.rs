@@ -1,0 +1,2 @@
+//! The `trimloop` command.
+fn main() {}
