@@ -1,0 +1,357 @@
+//! Every edge of a part as one polyline, shared by all its faces, with its image in each of their parameter planes.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use trimloop_brep::{Edge, FaceGeometry, FaceId, Part};
+use trimloop_geom::{Curve, Direction, Interval, Singularity, Surface};
+
+use crate::Tolerance;
+
+/// The shared samples of all edges of a part.
+#[derive(Clone, Debug, Default)]
+pub struct EdgeSamples {
+    /// Shared points; the part's vertices come first, in their order.
+    pub points: Vec<DVec3>,
+    /// One per edge of the part, in its order.
+    pub edges: Vec<SampledEdge>,
+}
+
+/// One edge's samples, from its start vertex to its end vertex.
+#[derive(Clone, Debug, Default)]
+pub struct SampledEdge {
+    /// Indices into [`EdgeSamples::points`].
+    pub points: Vec<u32>,
+    /// Curve parameter of each sample.
+    pub parameters: Vec<f64>,
+    /// The edge in the parameter plane of each face that uses it; each face once.
+    pub sides: Vec<EdgeSide>,
+}
+
+/// An edge's samples in one face's parameter plane.
+#[derive(Clone, Debug)]
+pub struct EdgeSide {
+    /// The face.
+    pub face: FaceId,
+    /// The projection of each sample, up to whole periods.
+    pub uv: Vec<DVec2>,
+    /// Per sample the index into [`Surface::singularities`] of the singular point that it is, if any.
+    pub singular: Vec<Option<u8>>,
+    /// The largest distance of a sample from the surface.
+    pub off_surface_mm: f64,
+}
+
+impl SampledEdge {
+    /// The side of `face`.
+    pub fn side(&self, face: FaceId) -> Option<&EdgeSide> {
+        self.sides.iter().find(|s| s.face == face)
+    }
+}
+
+/// A face's surface with what edge sampling asks of it again and again.
+struct Ground {
+    face: FaceId,
+    surface: Arc<Surface>,
+    pcurve: Option<Arc<Curve>>,
+    singularities: Arc<Vec<Singularity>>,
+    periods: [Option<f64>; 2],
+    curved: bool,
+}
+
+/// Samples all edges of a part within `tolerance`: of the curve itself, and of the turn of the normals of the faces on
+/// both sides.
+pub fn sample_edges(part: &Part, tolerance: Tolerance) -> EdgeSamples {
+    let tolerance = tolerance.clamped();
+    let grounds = grounds_of_edges(part);
+    let snap = snap_distance(part);
+    let sampled: Vec<Polyline> = part
+        .edges
+        .par_iter()
+        .zip(&grounds)
+        .map(|(edge, grounds)| Sampler { part, edge, grounds, tolerance, snap }.run())
+        .collect();
+    let mut out = EdgeSamples { points: part.vertices.iter().map(|v| v.point).collect(), edges: Vec::new() };
+    out.edges = part.edges.iter().zip(sampled).map(|(edge, line)| line.share(edge, &mut out.points)).collect();
+    out
+}
+
+/// Within this distance a point counts as a surface's singular point.
+fn snap_distance(part: &Part) -> f64 {
+    let size = trimloop_geom::Aabb::from_points(part.vertices.iter().map(|v| v.point)).diagonal();
+    (size * 1e-7).max(part.uncertainty_mm.min(size * 1e-5)).max(1e-9)
+}
+
+fn grounds_of_edges(part: &Part) -> Vec<Vec<Ground>> {
+    let mut grounds: Vec<Vec<Ground>> = part.edges.iter().map(|_| Vec::new()).collect();
+    for (index, face) in part.faces.iter().enumerate() {
+        let FaceGeometry::Surface(surface) = &face.geometry else { continue };
+        let singularities = Arc::new(surface.singularities());
+        for coedge in face.loops.iter().flat_map(|l| &l.coedges) {
+            let Some(list) = grounds.get_mut(coedge.edge as usize) else { continue };
+            if list.iter().any(|g| g.face == index as FaceId) {
+                continue;
+            }
+            list.push(Ground {
+                face: index as FaceId,
+                surface: surface.clone(),
+                pcurve: coedge.pcurve.clone(),
+                singularities: singularities.clone(),
+                periods: surface.periods(),
+                curved: !matches!(**surface, Surface::Plane { .. }),
+            });
+        }
+    }
+    grounds
+}
+
+/// An edge's samples before their points are shared.
+#[derive(Default)]
+struct Polyline {
+    samples: Vec<Sample>,
+    sides: Vec<FaceId>,
+}
+
+#[derive(Clone, Default)]
+struct Sample {
+    t: f64,
+    point: DVec3,
+    sides: Vec<Foot>,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Foot {
+    uv: DVec2,
+    normal: Option<DVec3>,
+    singular: Option<u8>,
+    distance: f64,
+}
+
+impl Polyline {
+    fn share(self, edge: &Edge, points: &mut Vec<DVec3>) -> SampledEdge {
+        let last = self.samples.len().saturating_sub(1);
+        let ids = self.samples.iter().enumerate().map(|(i, s)| match i {
+            0 => edge.start,
+            i if i == last => edge.end,
+            _ => {
+                points.push(s.point);
+                points.len() as u32 - 1
+            }
+        });
+        SampledEdge {
+            points: ids.collect(),
+            parameters: self.samples.iter().map(|s| s.t).collect(),
+            sides: self.sides.iter().enumerate().map(|(k, &face)| self.side(k, face)).collect(),
+        }
+    }
+
+    fn side(&self, k: usize, face: FaceId) -> EdgeSide {
+        EdgeSide {
+            face,
+            uv: self.samples.iter().map(|s| s.sides[k].uv).collect(),
+            singular: self.samples.iter().map(|s| s.sides[k].singular).collect(),
+            off_surface_mm: self.samples.iter().map(|s| s.sides[k].distance).fold(0.0, f64::max),
+        }
+    }
+}
+
+struct Sampler<'a> {
+    part: &'a Part,
+    edge: &'a Edge,
+    grounds: &'a [Ground],
+    tolerance: Tolerance,
+    snap: f64,
+}
+
+/// How often a chord may be halved.
+const MAX_DEPTH: u32 = 14;
+
+impl Sampler<'_> {
+    fn run(&self) -> Polyline {
+        let starts = self.start_parameters();
+        let mut samples: Vec<Sample> = Vec::with_capacity(starts.len() * 2);
+        let last = starts.len() - 1;
+        for (i, &t) in starts.iter().enumerate() {
+            let point = match i {
+                0 => self.part.vertices[self.edge.start as usize].point,
+                i if i == last => self.part.vertices[self.edge.end as usize].point,
+                _ => self.edge.curve.point(t),
+            };
+            let near = samples.last().cloned();
+            let next = self.sample(t, point, near.as_ref(), None);
+            if let Some(near) = near {
+                self.fill(&near, &next, 0, &mut samples);
+            }
+            samples.push(next);
+        }
+        Polyline { samples, sides: self.grounds.iter().map(|g| g.face).collect() }
+    }
+
+    /// Parameters that every polyline of this edge has, from the edge's start to its end.
+    fn start_parameters(&self) -> Vec<f64> {
+        let Edge { curve, range, same_sense, .. } = self.edge;
+        let mut out = Vec::new();
+        let breaks = curve.breakpoints(*range);
+        for pair in breaks.windows(2) {
+            let count = self.start_count(Interval::new(pair[0], pair[1]));
+            let piece = Interval::new(pair[0], pair[1]);
+            out.extend((0..count).map(|i| piece.at(i as f64 / count as f64)));
+        }
+        out.push(range.end);
+        if out.len() == 1 {
+            out.insert(0, range.start);
+        }
+        self.add_singular_points(&mut out);
+        if !same_sense {
+            out.reverse();
+        }
+        out
+    }
+
+    /// Equal steps that a smooth piece starts with; more follow where they are needed.
+    fn start_count(&self, piece: Interval) -> usize {
+        let turns = |radius: f64| (piece.length() / self.tolerance.arc_step_rad(radius) - 1e-9).ceil().max(1.0) as usize;
+        match &*self.edge.curve {
+            Curve::Line { .. } | Curve::Polyline(_) => 1,
+            Curve::Circle { radius, .. } => turns(*radius),
+            Curve::Ellipse { major, minor, .. } => turns(major.max(*minor)).max(4),
+            Curve::Nurbs(nurbs) if nurbs.degree() == 1 => 1,
+            Curve::Nurbs(_) if self.edge.start == self.edge.end => 4,
+            Curve::Nurbs(_) => 2,
+            _ => 4,
+        }
+    }
+
+    /// A polyline must not jump over a pole: it is where the parameters of the surface turn over.
+    fn add_singular_points(&self, parameters: &mut Vec<f64>) {
+        let Edge { curve, range, .. } = self.edge;
+        for singularity in self.grounds.iter().flat_map(|g| g.singularities.iter()) {
+            let foot = curve.project(singularity.point, None);
+            if foot.distance > self.snap {
+                continue;
+            }
+            let t = match curve.period() {
+                Some(period) => foot.t + ((range.start - foot.t) / period).ceil() * period,
+                None => foot.t,
+            };
+            let margin = range.length() * 1e-6;
+            if t > range.start + margin && t < range.end - margin {
+                let at = parameters.partition_point(|&p| p < t);
+                let gap = parameters.get(at).copied().unwrap_or(range.end) - parameters[at.saturating_sub(1)];
+                let near = |p: Option<&f64>| p.is_some_and(|p| (p - t).abs() < gap * 1e-3);
+                if near(parameters.get(at)) && at + 1 < parameters.len() {
+                    parameters[at] = t;
+                } else if near(parameters.get(at.wrapping_sub(1))) && at > 1 {
+                    parameters[at - 1] = t;
+                } else {
+                    parameters.insert(at, t);
+                }
+            }
+        }
+    }
+
+    fn sample(&self, t: f64, point: DVec3, near: Option<&Sample>, other: Option<&Sample>) -> Sample {
+        let sides = self.grounds.iter().enumerate().map(|(k, g)| {
+            let hint = self.hint(g, k, t, point, near, other);
+            self.foot(g, point, hint)
+        });
+        Sample { t, point, sides: sides.collect() }
+    }
+
+    fn hint(
+        &self,
+        ground: &Ground,
+        k: usize,
+        t: f64,
+        point: DVec3,
+        near: Option<&Sample>,
+        other: Option<&Sample>,
+    ) -> Option<DVec2> {
+        if !matches!(*ground.surface, Surface::Plane { .. })
+            && let Some(pcurve) = &ground.pcurve
+        {
+            let uv = pcurve.point(t).truncate();
+            if uv.is_finite() && ground.surface.point(uv).distance(point) < self.tolerance.linear_mm {
+                return Some(uv);
+            }
+        }
+        let regular = |s: &Sample| s.sides[k].singular.is_none().then_some(s.sides[k].uv);
+        match (near.and_then(regular), other.and_then(regular)) {
+            (Some(a), Some(b)) => Some((a + self.nearest_image(ground, b, a)) * 0.5),
+            (Some(a), None) | (None, Some(a)) => Some(a),
+            (None, None) => None,
+        }
+    }
+
+    /// `uv` moved by whole periods to be near `to`.
+    fn nearest_image(&self, ground: &Ground, uv: DVec2, to: DVec2) -> DVec2 {
+        let shift = |period: Option<f64>, from: f64, to: f64| period.map_or(0.0, |p| ((to - from) / p).round() * p);
+        uv + DVec2::new(shift(ground.periods[0], uv.x, to.x), shift(ground.periods[1], uv.y, to.y))
+    }
+
+    fn foot(&self, ground: &Ground, point: DVec3, hint: Option<DVec2>) -> Foot {
+        let singular = ground.singularities.iter().position(|s| s.point.distance(point) <= self.snap);
+        let foot = ground.surface.project(point, hint);
+        let normal = (ground.curved && singular.is_none()).then(|| ground.surface.normal(foot.uv)).flatten();
+        Foot { uv: foot.uv, normal, singular: singular.map(|s| s as u8), distance: foot.distance }
+    }
+
+    /// Adds the samples strictly between `a` and `b`.
+    fn fill(&self, a: &Sample, b: &Sample, depth: u32, out: &mut Vec<Sample>) {
+        if depth >= MAX_DEPTH || !(a.t - b.t).abs().is_normal() {
+            return;
+        }
+        let t = (a.t + b.t) * 0.5;
+        let point = self.edge.curve.point(t);
+        if !self.too_coarse(a, b, point) {
+            return;
+        }
+        let middle = self.sample(t, point, Some(a), Some(b));
+        self.fill(a, &middle, depth + 1, out);
+        out.push(middle.clone());
+        self.fill(&middle, b, depth + 1, out);
+    }
+
+    fn too_coarse(&self, a: &Sample, b: &Sample, middle: DVec3) -> bool {
+        let chord = b.point - a.point;
+        let length = (middle - a.point).length() + (b.point - middle).length();
+        if length <= self.tolerance.shortest_chord_mm() {
+            return false;
+        }
+        if !matches!(*self.edge.curve, Curve::Line { .. }) && self.bends(a.point, b.point, middle, chord) {
+            return true;
+        }
+        a.sides.iter().zip(&b.sides).zip(self.grounds).any(|((fa, fb), g)| self.turns(g, fa, fb))
+    }
+
+    fn bends(&self, a: DVec3, b: DVec3, middle: DVec3, chord: DVec3) -> bool {
+        let off = match chord.try_normalize() {
+            Some(along) => (middle - a).reject_from_normalized(along).length(),
+            None => middle.distance(a),
+        };
+        // The chords of the two halves turn by half as much as the tangents at the ends do.
+        off > self.tolerance.linear_mm || 2.0 * (middle - a).angle_between(b - middle) > self.tolerance.angular_rad * 1.001
+    }
+
+    /// Whether the surface turns, or its parameters run, too far between two feet.
+    fn turns(&self, ground: &Ground, a: &Foot, b: &Foot) -> bool {
+        if let (Some(na), Some(nb)) = (a.normal, b.normal)
+            && na.angle_between(nb) > self.tolerance.angular_rad * 1.001
+        {
+            return true;
+        }
+        if a.singular.is_some() || b.singular.is_some() {
+            return false;
+        }
+        let step = self.nearest_image(ground, b.uv, a.uv) - a.uv;
+        let far = |direction: Direction| {
+            let (period, d) = match direction {
+                Direction::U => (ground.periods[0], step.x),
+                Direction::V => (ground.periods[1], step.y),
+            };
+            period.is_some_and(|p| d.abs() > p * 0.26)
+        };
+        far(Direction::U) || far(Direction::V)
+    }
+}
+

@@ -1,0 +1,168 @@
+//! A loop's samples in the parameter plane, unrolled over closed directions and led through poles.
+
+use glam::DVec2;
+use trimloop_brep::{FaceId, Loop};
+use trimloop_geom::{Direction, Singularity, Surface};
+
+use crate::{EdgeSamples, TrimError, TrimVertex};
+
+/// A loop in the parameter plane, its inside to the left.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct UnrolledLoop {
+    /// In order; the last joins the first plus `winding` periods.
+    pub vertices: Vec<TrimVertex>,
+    /// How often it goes round in u and in v.
+    pub winding: [i32; 2],
+}
+
+/// A sample before unrolling.
+#[derive(Clone, Copy)]
+struct Raw {
+    uv: DVec2,
+    point: u32,
+    singular: Option<u8>,
+}
+
+/// The loop `l` of `face` in the parameter plane of `surface`; run backwards where `reverse`, so that the inside lies
+/// to the left of the surface's own normal.
+pub(crate) fn unroll(
+    l: &Loop,
+    face: FaceId,
+    reverse: bool,
+    samples: &EdgeSamples,
+    surface: &Surface,
+) -> Result<UnrolledLoop, TrimError> {
+    let mut raw = gather(l, face, samples)?;
+    if reverse {
+        raw.reverse();
+    }
+    let periods = surface.periods();
+    let singularities = if raw.iter().any(|r| r.singular.is_some()) { surface.singularities() } else { Vec::new() };
+    // Start at a regular sample, so that every run of singular ones has a regular neighbour on both sides.
+    if let Some(first) = raw.iter().position(|r| r.singular.is_none()) {
+        raw.rotate_left(first);
+    }
+    Ok(Unroller { periods, singularities: &singularities, out: Vec::with_capacity(raw.len() + 4) }.run(&raw))
+}
+
+fn gather(l: &Loop, face: FaceId, samples: &EdgeSamples) -> Result<Vec<Raw>, TrimError> {
+    let mut raw: Vec<Raw> = Vec::new();
+    for coedge in &l.coedges {
+        let edge = samples.edges.get(coedge.edge as usize).ok_or(TrimError::EdgeOffSurface)?;
+        let side = edge.side(face).ok_or(TrimError::EdgeOffSurface)?;
+        let at = |i: usize| Raw { uv: side.uv[i], point: edge.points[i], singular: side.singular[i] };
+        let count = edge.points.len();
+        let push = |raw: &mut Vec<Raw>, r: Raw| {
+            // Where edges don't quite chain, both ends stay: the gap is closed by a straight piece.
+            if raw.last().is_none_or(|last| last.point != r.point) {
+                raw.push(r);
+            }
+        };
+        if coedge.reversed {
+            (0..count).rev().for_each(|i| push(&mut raw, at(i)));
+        } else {
+            (0..count).for_each(|i| push(&mut raw, at(i)));
+        }
+    }
+    if raw.len() > 1 && raw[0].point == raw[raw.len() - 1].point {
+        raw.pop();
+    }
+    if raw.iter().any(|r| !r.uv.is_finite()) {
+        return Err(TrimError::EdgeOffSurface);
+    }
+    Ok(raw)
+}
+
+struct Unroller<'a> {
+    periods: [Option<f64>; 2],
+    singularities: &'a [Singularity],
+    out: Vec<TrimVertex>,
+}
+
+impl Unroller<'_> {
+    fn run(mut self, raw: &[Raw]) -> UnrolledLoop {
+        let mut i = 0;
+        let mut current = raw.first().map_or(DVec2::ZERO, |r| r.uv);
+        let first = current;
+        while i < raw.len() {
+            match raw[i].singular {
+                Some(s) if raw[0].singular.is_none() => {
+                    let run = raw[i..].iter().take_while(|r| r.singular == Some(s)).count();
+                    let next = raw[(i + run) % raw.len()].uv;
+                    current = self.through_pole(&raw[i..i + run], s, current, next);
+                    i += run;
+                }
+                _ => {
+                    current = self.near(raw[i].uv, current);
+                    self.out.push(TrimVertex { uv: current, point: raw[i].point });
+                    i += 1;
+                }
+            }
+        }
+        let end = self.near(first, current);
+        let turns = |d: f64, period: Option<f64>| period.map_or(0, |p| (d / p).round() as i32);
+        UnrolledLoop {
+            vertices: self.out,
+            winding: [turns(end.x - first.x, self.periods[0]), turns(end.y - first.y, self.periods[1])],
+        }
+    }
+
+    /// `uv` moved by whole periods to be nearest to `to`.
+    fn near(&self, uv: DVec2, to: DVec2) -> DVec2 {
+        let shift = |period: Option<f64>, d: f64| period.map_or(0.0, |p| (d / p).round() * p);
+        let d = to - uv;
+        uv + DVec2::new(shift(self.periods[0], d.x), shift(self.periods[1], d.y))
+    }
+
+    /// Runs along the pole's side of the domain from where the loop came in to where it leaves. Returns the last
+    /// parameters, from which the loop goes on.
+    fn through_pole(&mut self, run: &[Raw], singularity: u8, from: DVec2, next: DVec2) -> DVec2 {
+        let s = self.singularities[singularity as usize];
+        // (a, b): a runs along the pole's side, b across it. The inside lies to the left, so that along an upper side
+        // the loop runs towards lower a, along a lower one towards higher a; u and v change roles by a quarter turn.
+        let (along, across, period, from_a, next_a, from_b) = match s.constant {
+            Direction::V => (DVec2::X, DVec2::Y, self.periods[0], from.x, next.x, from.y),
+            Direction::U => (-DVec2::Y, DVec2::X, self.periods[1], -from.y, -next.y, from.x),
+        };
+        let upper = from_b < s.at;
+        let step = match period {
+            Some(p) => pole_step(next_a - from_a, p, upper),
+            None => next_a - from_a,
+        };
+        let pieces = period.map_or(8, |p| (step.abs() / p * 24.0).ceil().max(1.0) as usize);
+        let point = |k: usize| run[(k * run.len() / (pieces + 1)).min(run.len() - 1)].point;
+        for k in 0..=pieces {
+            let a = from_a + step * k as f64 / pieces as f64;
+            self.out.push(TrimVertex { uv: along * a + across * s.at, point: point(k) });
+        }
+        along * (from_a + step) + across * from_b
+    }
+}
+
+/// How far the loop runs along a pole's side: leftwards on an upper side, rightwards on a lower one, and a whole period
+/// where it leaves as it came (a seam).
+fn pole_step(difference: f64, period: f64, upper: bool) -> f64 {
+    let forward = difference.rem_euclid(period);
+    let step = if upper { period - forward } else { forward };
+    let step = if step < 1e-6 * period || step > (1.0 - 1e-6) * period { period } else { step };
+    if upper { -step } else { step }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::pole_step;
+    use std::f64::consts::{PI, TAU};
+
+    #[test]
+    fn a_loop_turns_left_at_a_pole() {
+        assert_eq!(pole_step(PI / 2.0, TAU, false), PI / 2.0);
+        assert_eq!(pole_step(-PI / 2.0, TAU, true), -PI / 2.0);
+        assert_eq!(pole_step(PI / 2.0, TAU, true), -1.5 * PI);
+    }
+
+    #[test]
+    fn a_seam_at_a_pole_is_a_whole_turn() {
+        assert_eq!(pole_step(0.0, TAU, true), -TAU);
+        assert_eq!(pole_step(1e-12, TAU, false), TAU);
+    }
+}
