@@ -1,0 +1,3 @@
+"""The models, one module per family."""
+
+from models import primitives  # noqa: F401
