@@ -3,18 +3,114 @@
 //! Every edge is sampled once, by the tolerance of all its faces; faces are filled afterwards and never move an edge's
 //! points, so that neighbours share their vertices.
 
+mod assemble;
+mod boundary;
+mod draft;
+mod ear_clipping;
+mod face;
+mod filling;
 mod monitor;
 mod options;
+mod orientation;
 mod part_mesh;
+mod seeds;
+mod topology;
+mod triangulation;
+mod warp;
 
 pub use monitor::{Cancelled, Monitor, Silent};
 pub use options::{LinearDeflection, MeshOptions};
 pub use part_mesh::{CurveLine, EdgeLine, FaceMesh, FaceStatus, FaceVertex, PartMesh, ShellTopology};
 
-use trimloop_brep::Part;
+use glam::DVec3;
+use rayon::prelude::*;
+use trimloop_brep::{Diagnostic, FaceGeometry, Part, Severity};
+use trimloop_geom::Aabb;
+use trimloop_trim::{EdgeSamples, Tolerance, sample_curve, sample_edges};
+
+use crate::face::FaceMesher;
 
 /// Meshes one part.
+///
+/// The result holds one [`FaceMesh`] per face; a face that cannot be meshed is [`FaceStatus::Lost`] and costs no other.
 pub fn mesh_part(part: &Part, options: &MeshOptions, monitor: &dyn Monitor) -> Result<PartMesh, Cancelled> {
-    let _ = (part, options, monitor);
-    todo!()
+    let deflection = deflection_mm(part, options.linear_deflection);
+    // Bounds are measured at a few points per chord and triangle; the margin covers what lies between them.
+    let tolerance =
+        Tolerance { linear_mm: deflection * 0.9, angular_rad: options.angular_deflection_rad * 0.99 }
+            .clamped();
+    let samples = sample_edges(part, tolerance);
+    let max_sites = (options.max_triangles / 4).max(1000);
+    let mesher = FaceMesher { part, samples: &samples, tolerance, max_sites };
+    let drafts: Result<Vec<_>, Cancelled> = (0..part.faces.len() as u32)
+        .into_par_iter()
+        .map(|face| {
+            if monitor.cancelled() {
+                return Err(Cancelled);
+            }
+            let draft = mesher.mesh(face);
+            monitor.face_done();
+            Ok(draft)
+        })
+        .collect();
+    let drafts = drafts?;
+    let off = off_surface(part, &samples, deflection);
+    let mut mesh = assemble::assemble(part, samples, drafts);
+    mesh.diagnostics.extend(off);
+    mesh.linear_deflection_mm = deflection;
+    mesh.curves =
+        part.curves.iter().map(|c| CurveLine { points: line(c, tolerance), color: c.color }).collect();
+    mesh.curves.retain(|c| c.points.len() > 1);
+    Ok(mesh)
+}
+
+fn line(curve: &trimloop_brep::FreeCurve, tolerance: Tolerance) -> Vec<DVec3> {
+    let points = sample_curve(&curve.curve, curve.range, tolerance);
+    if points.iter().all(|p| p.is_finite()) { points } else { Vec::new() }
+}
+
+/// The bound in millimetres, never zero.
+fn deflection_mm(part: &Part, deflection: LinearDeflection) -> f64 {
+    let size = size_mm(part);
+    let least = (size * 1e-7).max(1e-9);
+    match deflection {
+        LinearDeflection::Absolute(mm) => mm.max(least),
+        LinearDeflection::Relative(share) => (size * share).max(least),
+    }
+}
+
+/// The diagonal of the part's box, from its edges (and the surfaces of faces that have none).
+fn size_mm(part: &Part) -> f64 {
+    let mut bounds =
+        Aabb::from_points(part.vertices.iter().map(|v| v.point).chain(part.facet_points.iter().copied()));
+    for edge in &part.edges {
+        bounds = bounds.union(edge.curve.bounds(edge.range));
+    }
+    for face in part.faces.iter().filter(|f| f.loops.iter().all(|l| l.coedges.is_empty())) {
+        if let FaceGeometry::Surface(surface) = &face.geometry {
+            let domain = surface.domain();
+            if domain.iter().all(|d| d.is_finite()) {
+                bounds = bounds.union(surface.bounds(domain));
+            }
+        }
+    }
+    for curve in &part.curves {
+        bounds = bounds.union(curve.curve.bounds(curve.range));
+    }
+    let size = bounds.diagonal();
+    if size.is_finite() && size > 0.0 { size } else { 1.0 }
+}
+
+/// Edges that lie off their surfaces by more than the bound.
+fn off_surface(part: &Part, samples: &EdgeSamples, deflection_mm: f64) -> Vec<Diagnostic> {
+    let mut out = Vec::new();
+    for (edge, sampled) in part.edges.iter().zip(&samples.edges) {
+        for side in sampled.sides.iter().filter(|s| s.off_surface_mm > deflection_mm.max(part.uncertainty_mm))
+        {
+            let face = part.faces[side.face as usize].entity;
+            let text = format!("the edge lies up to {:.3e} mm off the face's surface", side.off_surface_mm);
+            out.push(Diagnostic::new(Severity::Warning, "edge-off-surface", edge.entity, text).on_face(face));
+        }
+    }
+    out
 }

@@ -44,7 +44,11 @@ pub(crate) fn assemble(
 }
 
 /// Loops that go round nothing: the largest is the boundary, unless it runs clockwise round a hole in a closed surface.
-fn flat_piece(chart: &Chart<'_>, loops: Vec<Vec<TrimVertex>>, domain: &mut TrimDomain) -> Result<(), TrimError> {
+fn flat_piece(
+    chart: &Chart<'_>,
+    loops: Vec<Vec<TrimVertex>>,
+    domain: &mut TrimDomain,
+) -> Result<(), TrimError> {
     let area = |l: &Vec<TrimVertex>| signed_area(l.iter().map(|v| v.uv));
     let outer = (0..loops.len()).max_by(|&i, &j| area(&loops[i]).abs().total_cmp(&area(&loops[j]).abs()));
     let Some(outer) = outer else { return Ok(()) };
@@ -67,9 +71,14 @@ fn closes_up(surface: &Surface) -> bool {
     let [u, v] = surface.periods();
     let [du, dv] = surface.domain();
     let singular = |constant: Direction, at: f64, range: f64| {
-        surface.singularities().iter().any(|s| s.constant == constant && (s.at - at).abs() <= 1e-9 * range.max(1e-9))
+        surface
+            .singularities()
+            .iter()
+            .any(|s| s.constant == constant && (s.at - at).abs() <= 1e-9 * range.max(1e-9))
     };
-    let ends = |c: Direction, d: Interval| d.is_finite() && singular(c, d.start, d.length()) && singular(c, d.end, d.length());
+    let ends = |c: Direction, d: Interval| {
+        d.is_finite() && singular(c, d.start, d.length()) && singular(c, d.end, d.length())
+    };
     match (u, v) {
         (Some(_), Some(_)) => true,
         (Some(_), None) => ends(Direction::V, dv),
@@ -130,7 +139,8 @@ impl<'a> Turned<'a> {
         let constant = if self.axis == Direction::U { Direction::V } else { Direction::U };
         let beyond = |at: f64| if upper { at > b } else { at < b };
         let poles = self.chart.surface.singularities();
-        let pole = poles.iter().filter(|s| s.constant == constant).map(|s| s.at * sign).filter(|&at| beyond(at));
+        let pole =
+            poles.iter().filter(|s| s.constant == constant).map(|s| s.at * sign).filter(|&at| beyond(at));
         let pole = pole.min_by(|x, y| (x - b).abs().total_cmp(&(y - b).abs()));
         if let Some(pole) = pole {
             return Some((pole, true));
@@ -362,7 +372,12 @@ impl Obstacles {
 }
 
 /// The steepest clear line from a vertex of `lower` to one of `upper`: (index, index, shift of `upper` along a).
-fn choose_cut(plane: &Turned<'_>, lower: &Ring, upper: &Ring, holes: &[Vec<TrimVertex>]) -> (usize, usize, f64) {
+fn choose_cut(
+    plane: &Turned<'_>,
+    lower: &Ring,
+    upper: &Ring,
+    holes: &[Vec<TrimVertex>],
+) -> (usize, usize, f64) {
     let obstacles = Obstacles::new(plane, &[lower, upper], holes);
     let stride = lower.vertices.len().div_ceil(128);
     let mut candidates: Vec<(f64, usize, usize, f64)> = Vec::new();
@@ -436,7 +451,8 @@ fn free_start(holes: &[Vec<TrimVertex>], start: f64, period: f64, coordinate: fn
 /// The border of `u` x `v`, counter-clockwise; sides that are one line or one point in space share their points.
 fn rectangle(chart: &Chart<'_>, u: Interval, v: Interval, domain: &mut TrimDomain) -> Vec<TrimVertex> {
     let periods = chart.surface.periods();
-    let corners = [(u.start, v.start), (u.end, v.start), (u.end, v.end), (u.start, v.end)].map(|(a, b)| DVec2::new(a, b));
+    let corners = [(u.start, v.start), (u.end, v.start), (u.end, v.end), (u.start, v.end)]
+        .map(|(a, b)| DVec2::new(a, b));
     let ids = corner_points(chart, corners, domain);
     let mut bottom = side(chart, corners[0], corners[1], ids[0], domain);
     let top = if periods[1].is_some() {

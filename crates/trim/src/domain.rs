@@ -77,7 +77,12 @@ impl TrimLoop {
 
 impl TrimDomain {
     /// The domain of `face` of `part`, with its edges sampled as in `samples`; `tolerance` for the sides it adds.
-    pub fn new(part: &Part, face: FaceId, samples: &EdgeSamples, tolerance: Tolerance) -> Result<Self, TrimError> {
+    pub fn new(
+        part: &Part,
+        face: FaceId,
+        samples: &EdgeSamples,
+        tolerance: Tolerance,
+    ) -> Result<Self, TrimError> {
         let face_ref = &part.faces[face as usize];
         let FaceGeometry::Surface(surface) = &face_ref.geometry else { return Err(TrimError::NoSurface) };
         let loops = unroll_loops(part, face, samples, surface)?;
@@ -127,7 +132,10 @@ impl TrimDomain {
             }
         }
         if turned > 0 {
-            let message = format!("{turned} of the face's {} loops run in the wrong direction; turned", self.loops.len());
+            let message = format!(
+                "{turned} of the face's {} loops run in the wrong direction; turned",
+                self.loops.len()
+            );
             self.diagnostics.push(
                 Diagnostic::new(Severity::Info, "loop-direction", face.entity, message).on_face(face.entity),
             );

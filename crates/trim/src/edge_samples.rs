@@ -69,11 +69,28 @@ pub fn sample_edges(part: &Part, tolerance: Tolerance) -> EdgeSamples {
         .edges
         .par_iter()
         .zip(&grounds)
-        .map(|(edge, grounds)| Sampler { part, edge, grounds, tolerance, snap }.run())
+        .map(|(edge, grounds)| {
+            let ends = [edge.start, edge.end].map(|v| part.vertices[v as usize].point);
+            let Edge { curve, range, same_sense, .. } = edge;
+            let closed = edge.start == edge.end;
+            Sampler { curve, range: *range, same_sense: *same_sense, ends, closed, grounds, tolerance, snap }
+                .run()
+        })
         .collect();
     let mut out = EdgeSamples { points: part.vertices.iter().map(|v| v.point).collect(), edges: Vec::new() };
-    out.edges = part.edges.iter().zip(sampled).map(|(edge, line)| line.share(edge, &mut out.points)).collect();
+    out.edges =
+        part.edges.iter().zip(sampled).map(|(edge, line)| line.share(edge, &mut out.points)).collect();
     out
+}
+
+/// A polyline of `curve` over `range` within `tolerance`.
+pub fn sample_curve(curve: &Curve, range: Interval, tolerance: Tolerance) -> Vec<DVec3> {
+    let ends = [curve.point(range.start), curve.point(range.end)];
+    let closed = ends[0].distance(ends[1]) <= 1e-9 * ends[0].abs().max(ends[1].abs()).max_element();
+    let tolerance = tolerance.clamped();
+    let line =
+        Sampler { curve, range, same_sense: true, ends, closed, grounds: &[], tolerance, snap: 0.0 }.run();
+    line.samples.into_iter().map(|s| s.point).collect()
 }
 
 /// Within this distance a point counts as a surface's singular point.
@@ -156,8 +173,13 @@ impl Polyline {
 }
 
 struct Sampler<'a> {
-    part: &'a Part,
-    edge: &'a Edge,
+    curve: &'a Curve,
+    range: Interval,
+    /// Whether the polyline runs from the range's start to its end.
+    same_sense: bool,
+    /// The polyline's ends, in its own direction: exactly the vertices.
+    ends: [DVec3; 2],
+    closed: bool,
     grounds: &'a [Ground],
     tolerance: Tolerance,
     snap: f64,
@@ -173,9 +195,9 @@ impl Sampler<'_> {
         let last = starts.len() - 1;
         for (i, &t) in starts.iter().enumerate() {
             let point = match i {
-                0 => self.part.vertices[self.edge.start as usize].point,
-                i if i == last => self.part.vertices[self.edge.end as usize].point,
-                _ => self.edge.curve.point(t),
+                0 => self.ends[0],
+                i if i == last => self.ends[1],
+                _ => self.curve.point(t),
             };
             let near = samples.last().cloned();
             let next = self.sample(t, point, near.as_ref(), None);
@@ -189,9 +211,9 @@ impl Sampler<'_> {
 
     /// Parameters that every polyline of this edge has, from the edge's start to its end.
     fn start_parameters(&self) -> Vec<f64> {
-        let Edge { curve, range, same_sense, .. } = self.edge;
+        let range = self.range;
         let mut out = Vec::new();
-        let breaks = curve.breakpoints(*range);
+        let breaks = self.curve.breakpoints(range);
         for pair in breaks.windows(2) {
             let count = self.start_count(Interval::new(pair[0], pair[1]));
             let piece = Interval::new(pair[0], pair[1]);
@@ -202,7 +224,7 @@ impl Sampler<'_> {
             out.insert(0, range.start);
         }
         self.add_singular_points(&mut out);
-        if !same_sense {
+        if !self.same_sense {
             out.reverse();
         }
         out
@@ -210,13 +232,15 @@ impl Sampler<'_> {
 
     /// Equal steps that a smooth piece starts with; more follow where they are needed.
     fn start_count(&self, piece: Interval) -> usize {
-        let turns = |radius: f64| (piece.length() / self.tolerance.arc_step_rad(radius) - 1e-9).ceil().max(1.0) as usize;
-        match &*self.edge.curve {
+        let turns = |radius: f64| {
+            (piece.length() / self.tolerance.arc_step_rad(radius) - 1e-9).ceil().max(1.0) as usize
+        };
+        match self.curve {
             Curve::Line { .. } | Curve::Polyline(_) => 1,
             Curve::Circle { radius, .. } => turns(*radius),
             Curve::Ellipse { major, minor, .. } => turns(major.max(*minor)).max(4),
             Curve::Nurbs(nurbs) if nurbs.degree() == 1 => 1,
-            Curve::Nurbs(_) if self.edge.start == self.edge.end => 4,
+            Curve::Nurbs(_) if self.closed => 4,
             Curve::Nurbs(_) => 2,
             _ => 4,
         }
@@ -224,7 +248,7 @@ impl Sampler<'_> {
 
     /// A polyline must not jump over a pole: it is where the parameters of the surface turn over.
     fn add_singular_points(&self, parameters: &mut Vec<f64>) {
-        let Edge { curve, range, .. } = self.edge;
+        let Self { curve, range, .. } = self;
         for singularity in self.grounds.iter().flat_map(|g| g.singularities.iter()) {
             let foot = curve.project(singularity.point, None);
             if foot.distance > self.snap {
@@ -285,7 +309,8 @@ impl Sampler<'_> {
 
     /// `uv` moved by whole periods to be near `to`.
     fn nearest_image(&self, ground: &Ground, uv: DVec2, to: DVec2) -> DVec2 {
-        let shift = |period: Option<f64>, from: f64, to: f64| period.map_or(0.0, |p| ((to - from) / p).round() * p);
+        let shift =
+            |period: Option<f64>, from: f64, to: f64| period.map_or(0.0, |p| ((to - from) / p).round() * p);
         uv + DVec2::new(shift(ground.periods[0], uv.x, to.x), shift(ground.periods[1], uv.y, to.y))
     }
 
@@ -302,7 +327,7 @@ impl Sampler<'_> {
             return;
         }
         let t = (a.t + b.t) * 0.5;
-        let point = self.edge.curve.point(t);
+        let point = self.curve.point(t);
         if !self.too_coarse(a, b, point) {
             return;
         }
@@ -318,7 +343,7 @@ impl Sampler<'_> {
         if length <= self.tolerance.shortest_chord_mm() {
             return false;
         }
-        if !matches!(*self.edge.curve, Curve::Line { .. }) && self.bends(a.point, b.point, middle, chord) {
+        if !matches!(self.curve, Curve::Line { .. }) && self.bends(a.point, b.point, middle, chord) {
             return true;
         }
         a.sides.iter().zip(&b.sides).zip(self.grounds).any(|((fa, fb), g)| self.turns(g, fa, fb))
@@ -330,7 +355,8 @@ impl Sampler<'_> {
             None => middle.distance(a),
         };
         // The chords of the two halves turn by half as much as the tangents at the ends do.
-        off > self.tolerance.linear_mm || 2.0 * (middle - a).angle_between(b - middle) > self.tolerance.angular_rad * 1.001
+        off > self.tolerance.linear_mm
+            || 2.0 * (middle - a).angle_between(b - middle) > self.tolerance.angular_rad * 1.001
     }
 
     /// Whether the surface turns, or its parameters run, too far between two feet.
@@ -354,4 +380,3 @@ impl Sampler<'_> {
         far(Direction::U) || far(Direction::V)
     }
 }
-

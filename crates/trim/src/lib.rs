@@ -14,5 +14,5 @@ mod tolerance;
 mod unroll;
 
 pub use domain::{TrimDomain, TrimError, TrimLoop, TrimVertex};
-pub use edge_samples::{EdgeSamples, EdgeSide, SampledEdge, sample_edges};
+pub use edge_samples::{EdgeSamples, EdgeSide, SampledEdge, sample_curve, sample_edges};
 pub use tolerance::Tolerance;

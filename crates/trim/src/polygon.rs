@@ -21,7 +21,10 @@ fn crosses_right_of(a: DVec2, b: DVec2, p: DVec2) -> bool {
 
 /// Whether the open segments `a`-`b` and `c`-`d` cross or overlap; touching end points do not count.
 pub fn segments_cross(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
-    if a.x.max(b.x) < c.x.min(d.x) || c.x.max(d.x) < a.x.min(b.x) || a.y.max(b.y) < c.y.min(d.y) || c.y.max(d.y) < a.y.min(b.y)
+    if a.x.max(b.x) < c.x.min(d.x)
+        || c.x.max(d.x) < a.x.min(b.x)
+        || a.y.max(b.y) < c.y.min(d.y)
+        || c.y.max(d.y) < a.y.min(b.y)
     {
         return false;
     }

@@ -37,7 +37,8 @@ pub(crate) fn unroll(
         raw.reverse();
     }
     let periods = surface.periods();
-    let singularities = if raw.iter().any(|r| r.singular.is_some()) { surface.singularities() } else { Vec::new() };
+    let singularities =
+        if raw.iter().any(|r| r.singular.is_some()) { surface.singularities() } else { Vec::new() };
     // Start at a regular sample, so that every run of singular ones has a regular neighbour on both sides.
     if let Some(first) = raw.iter().position(|r| r.singular.is_none()) {
         raw.rotate_left(first);

@@ -1,0 +1,222 @@
+//! Triangles for a domain, refined until they keep to the exact surface.
+
+use glam::{DVec2, DVec3};
+use trimloop_geom::Surface;
+use trimloop_trim::{EdgeSamples, Tolerance, TrimDomain};
+
+use crate::draft::DraftVertex;
+use crate::seeds::seeds;
+use crate::triangulation::Triangulation;
+use crate::warp::Warp;
+
+/// A domain's triangulation with what its sites are in space.
+pub(crate) struct Filling<'a> {
+    surface: &'a Surface,
+    tolerance: Tolerance,
+    warp: Warp,
+    triangulation: Triangulation,
+    sites: Vec<SiteInSpace>,
+    /// The number of the first point that this filling adds, and of the next one.
+    first_inner: u32,
+    next_point: u32,
+    /// The largest deviation that was accepted.
+    pub max_deviation_mm: f64,
+    /// Whether everything that was measured keeps the bounds.
+    pub within_bounds: bool,
+    /// Whether two corners that are different points fell on one site.
+    merged: bool,
+    max_sites: usize,
+}
+
+#[derive(Clone, Copy)]
+struct SiteInSpace {
+    uv: DVec2,
+    point: u32,
+    position: DVec3,
+    normal: DVec3,
+}
+
+/// Rounds of refinement; each halves what is still too long.
+const MAX_ROUNDS: usize = 10;
+
+impl<'a> Filling<'a> {
+    /// The first triangulation of `domain`. `None` when its coordinates are unusable.
+    pub fn new(
+        surface: &'a Surface,
+        domain: &TrimDomain,
+        samples: &EdgeSamples,
+        tolerance: Tolerance,
+        max_sites: usize,
+    ) -> Option<Self> {
+        let (low, high) = domain.uv_bounds();
+        let warp = Warp::new(surface, low, high, tolerance, max_sites);
+        let inner = seeds(domain, &warp);
+        let triangulation = Triangulation::new(domain, &inner, &warp)?;
+        let first_inner = domain.own_base + domain.own_points.len() as u32;
+        let mut filling = Self {
+            surface,
+            tolerance,
+            warp,
+            sites: Vec::with_capacity(triangulation.len()),
+            triangulation,
+            first_inner,
+            next_point: first_inner,
+            max_deviation_mm: 0.0,
+            within_bounds: true,
+            merged: false,
+            max_sites,
+        };
+        filling.place_corners(domain, samples);
+        for &uv in inner.iter() {
+            // Seeds follow the corners in order; those on a corner's place have no site of their own.
+            if filling.sites.len() < filling.triangulation.len() {
+                filling.place_inner(uv);
+            }
+        }
+        Some(filling)
+    }
+
+    fn place_corners(&mut self, domain: &TrimDomain, samples: &EdgeSamples) {
+        let corners = domain.loops.iter().flat_map(|l| &l.vertices);
+        let sites = std::mem::take(&mut self.triangulation.site_of_corner);
+        for (corner, &site) in corners.zip(&sites) {
+            if site as usize == self.sites.len() {
+                let position = domain.point(corner, samples);
+                let normal = self.normal(corner.uv);
+                self.sites.push(SiteInSpace { uv: corner.uv, point: corner.point, position, normal });
+            } else if self.sites[site as usize].point != corner.point {
+                self.merged = true;
+            }
+        }
+        self.triangulation.site_of_corner = sites;
+    }
+
+    fn place_inner(&mut self, uv: DVec2) {
+        let position = self.surface.point(uv);
+        let normal = self.normal(uv);
+        self.sites.push(SiteInSpace { uv, point: self.next_point, position, normal });
+        self.next_point += 1;
+    }
+
+    fn normal(&self, uv: DVec2) -> DVec3 {
+        self.surface.normal(uv).unwrap_or(DVec3::ZERO)
+    }
+
+    /// Whether the triangles end exactly at the domain's boundary.
+    pub fn intact(&self) -> bool {
+        self.triangulation.intact && !self.merged
+    }
+
+    /// Adds points until every inner edge and every triangle keeps the bounds.
+    pub fn refine(&mut self) {
+        let mut fresh = 0;
+        for round in 0..=MAX_ROUNDS {
+            let wanted = self.violations(fresh);
+            if wanted.is_empty() {
+                return;
+            }
+            if round == MAX_ROUNDS || self.sites.len() + wanted.len() > self.max_sites {
+                self.within_bounds = false;
+                return;
+            }
+            fresh = self.sites.len() as u32;
+            for (at, hint) in wanted {
+                if self.triangulation.insert(at, hint).is_some() {
+                    self.place_inner(self.warp.unmap(at));
+                }
+            }
+        }
+    }
+
+    /// Warped points at which edges or triangles with a site from `fresh` on break a bound, each with a site nearby.
+    fn violations(&mut self, fresh: u32) -> Vec<(DVec2, u32)> {
+        let inside = self.triangulation.inside();
+        let mut broken = vec![false; inside.len()];
+        let mut out = Vec::new();
+        let mut worst = self.max_deviation_mm;
+        for ([a, b], faces) in self.triangulation.inner_edges() {
+            if (fresh > 0 && a < fresh && b < fresh) || !(inside[faces[0]] || inside[faces[1]]) {
+                continue;
+            }
+            let (at, off) = self.edge_violation(a, b);
+            match at {
+                Some(at) => {
+                    faces.iter().for_each(|&f| broken[f] = true);
+                    out.push((at, a));
+                }
+                None => worst = worst.max(off),
+            }
+        }
+        for (face, t) in self.triangulation.triangles() {
+            if !inside[face] || broken[face] || (fresh > 0 && t.iter().all(|&s| s < fresh)) {
+                continue;
+            }
+            let (at, off) = self.triangle_violation(t);
+            match at {
+                Some(at) => out.push((at, t[0])),
+                None => worst = worst.max(off),
+            }
+        }
+        self.max_deviation_mm = worst;
+        out
+    }
+
+    /// The edge's middle if it is to be split, and its distance from the surface.
+    fn edge_violation(&self, a: u32, b: u32) -> (Option<DVec2>, f64) {
+        let (sa, sb) = (&self.sites[a as usize], &self.sites[b as usize]);
+        if sa.point == sb.point {
+            return (None, 0.0);
+        }
+        let length = sa.position.distance(sb.position);
+        let at = (self.triangulation.at(a) + self.triangulation.at(b)) * 0.5;
+        let off = self.off_surface(at, (sa.position + sb.position) * 0.5);
+        // A chord between two turned normals bulges at least by their angle's share: cheaper than the angle itself.
+        let turned = sa.normal.dot(sb.normal) < (self.tolerance.angular_rad * 1.001).cos()
+            && sa.normal != DVec3::ZERO
+            && sb.normal != DVec3::ZERO;
+        let split = off > self.tolerance.linear_mm || (turned && length > self.tolerance.shortest_chord_mm());
+        (split.then_some(at), off)
+    }
+
+    fn triangle_violation(&self, t: [u32; 3]) -> (Option<DVec2>, f64) {
+        let [a, b, c] = t.map(|s| &self.sites[s as usize]);
+        if a.point == b.point || b.point == c.point || c.point == a.point {
+            return (None, 0.0);
+        }
+        let [pa, pb, pc] = t.map(|s| self.triangulation.at(s));
+        let at = (pa + pb + pc) / 3.0;
+        let off = self.off_surface(at, (a.position + b.position + c.position) / 3.0);
+        ((off > self.tolerance.linear_mm).then_some(at), off)
+    }
+
+    /// Distance along the normal between the surface at the warped point `at` and `chord`.
+    fn off_surface(&self, at: DVec2, chord: DVec3) -> f64 {
+        let d = self.surface.first_derivatives(self.warp.unmap(at));
+        let gap = d.point - chord;
+        match d.du.cross(d.dv).try_normalize() {
+            Some(normal) => normal.dot(gap).abs(),
+            None => 0.0,
+        }
+    }
+
+    /// The triangles inside, as vertices and indices, and the points the filling adds (numbered on after the domain's
+    /// own).
+    pub fn finish(self) -> (Vec<DraftVertex>, Vec<[u32; 3]>, Vec<DVec3>) {
+        let inside = self.triangulation.inside();
+        let distinct = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|s| self.sites[s as usize].point);
+            a != b && b != c && c != a
+        };
+        let triangles: Vec<[u32; 3]> = self
+            .triangulation
+            .triangles()
+            .filter(|(f, t)| inside[*f] && distinct(t))
+            .map(|(_, t)| t)
+            .collect();
+        let vertices =
+            self.sites.iter().map(|s| DraftVertex { point: s.point, normal: s.normal, uv: s.uv }).collect();
+        let first_own =
+            self.sites.iter().filter(|s| s.point >= self.first_inner).map(|s| s.position).collect();
+        (vertices, triangles, first_own)
+    }
+}

@@ -1,0 +1,47 @@
+//! What a shell's triangles are like, seen from their edges.
+
+use std::collections::HashMap;
+
+use trimloop_brep::Part;
+
+use crate::draft::FaceDraft;
+use crate::{PartMesh, ShellTopology};
+
+/// The topology of every shell of `part`; `turned` tells which drafts were turned over in `mesh`.
+pub(crate) fn of_shells(
+    part: &Part,
+    mesh: &PartMesh,
+    drafts: &[FaceDraft],
+    turned: &[bool],
+) -> Vec<ShellTopology> {
+    let mut out = Vec::new();
+    for (body, b) in part.bodies.iter().enumerate() {
+        for (shell, s) in b.shells.iter().enumerate() {
+            let faces: Vec<usize> = s.faces.iter().map(|f| f.face as usize).collect();
+            let (open_edges, non_manifold_edges) = count_edges(&faces, drafts, turned);
+            let volume_mm3 = faces.iter().map(|&f| volume(mesh, f)).sum();
+            out.push(ShellTopology { body, shell, open_edges, non_manifold_edges, volume_mm3 });
+        }
+    }
+    out
+}
+
+fn count_edges(faces: &[usize], drafts: &[FaceDraft], turned: &[bool]) -> (usize, usize) {
+    let mut uses: HashMap<(u32, u32), (i32, u32)> = HashMap::new();
+    for &face in faces {
+        for &[a, b] in &drafts[face].boundary {
+            let entry = uses.entry((a.min(b), a.max(b))).or_default();
+            entry.0 += if (a < b) != turned[face] { 1 } else { -1 };
+            entry.1 += 1;
+        }
+    }
+    let open = uses.values().map(|u| u.0.unsigned_abs() as usize).sum();
+    let crowded = uses.values().filter(|u| u.1 > 2).count();
+    (open, crowded)
+}
+
+fn volume(mesh: &PartMesh, face: usize) -> f64 {
+    let face = &mesh.faces[face];
+    let corner = |i: u32| mesh.positions[face.vertices[i as usize].position as usize];
+    face.triangles.iter().map(|t| t.map(corner)).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()
+}

@@ -1,0 +1,185 @@
+//! The constrained Delaunay triangulation of a domain in the warped parameter plane.
+
+use std::collections::{HashMap, HashSet};
+
+use glam::DVec2;
+use spade::handles::{FixedFaceHandle, InnerTag, PossiblyOuterTag};
+use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
+use trimloop_trim::TrimDomain;
+
+use crate::warp::Warp;
+
+/// A vertex of the triangulation: its warped place and its index.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Site {
+    pub at: DVec2,
+    pub index: u32,
+}
+
+impl HasPosition for Site {
+    type Scalar = f64;
+    fn position(&self) -> Point2<f64> {
+        Point2::new(self.at.x, self.at.y)
+    }
+}
+
+type Cdt = ConstrainedDelaunayTriangulation<Site>;
+
+/// The triangulation of a domain, and what became of its boundary.
+pub(crate) struct Triangulation {
+    cdt: Cdt,
+    /// Corners of the domain's loops, one after the other, to sites (corners at the same place share one).
+    pub site_of_corner: Vec<u32>,
+    /// Pairs of sites that the boundary runs over an even number of times: both sides are alike.
+    slits: HashSet<(u32, u32)>,
+    /// Whether every boundary segment is an edge of the triangulation.
+    pub intact: bool,
+    domain_polygons: Vec<Vec<DVec2>>,
+}
+
+/// Spade refuses coordinates that are very small but not zero.
+fn tame(p: DVec2) -> DVec2 {
+    let f = |x: f64| if x.abs() < 1e-40 { 0.0 } else { x };
+    DVec2::new(f(p.x), f(p.y))
+}
+
+impl Triangulation {
+    /// Triangulates the domain's corners and `inner` points ((u, v)). `None` when the coordinates are unusable.
+    pub fn new(domain: &TrimDomain, inner: &[DVec2], warp: &Warp) -> Option<Self> {
+        let polygons: Vec<Vec<DVec2>> =
+            domain.loops.iter().map(|l| l.uvs().map(|uv| tame(warp.map(uv))).collect()).collect();
+        let mut sites: Vec<Site> = Vec::new();
+        let mut known: HashMap<(u64, u64), u32> = HashMap::new();
+        let mut site_at = |at: DVec2, sites: &mut Vec<Site>| {
+            *known.entry((at.x.to_bits(), at.y.to_bits())).or_insert_with(|| {
+                sites.push(Site { at, index: sites.len() as u32 });
+                sites.len() as u32 - 1
+            })
+        };
+        let site_of_corner: Vec<u32> = polygons.iter().flatten().map(|&at| site_at(at, &mut sites)).collect();
+        inner.iter().for_each(|&uv| {
+            site_at(tame(warp.map(uv)), &mut sites);
+        });
+        let uses = segment_uses(&polygons, &site_of_corner);
+        let mut edges: Vec<[usize; 2]> = uses.keys().map(|&(a, b)| [a as usize, b as usize]).collect();
+        edges.sort_unstable();
+        let mut refused = 0;
+        let cdt = Cdt::try_bulk_load_cdt(sites, edges.clone(), |_| refused += 1).ok()?;
+        let intact = refused == 0 && cdt.num_constraints() == edges.len();
+        let slits = uses.into_iter().filter(|&(_, n)| n % 2 == 0).map(|(pair, _)| pair).collect();
+        Some(Self { cdt, site_of_corner, slits, intact, domain_polygons: polygons })
+    }
+
+    /// Number of sites.
+    pub fn len(&self) -> usize {
+        self.cdt.num_vertices()
+    }
+
+    /// The warped place of a site.
+    pub fn at(&self, site: u32) -> DVec2 {
+        self.cdt.vertex(spade::handles::FixedVertexHandle::from_index(site as usize)).data().at
+    }
+
+    /// Adds a point; its site, or `None` if it coincides with one that exists.
+    pub fn insert(&mut self, at: DVec2, hint: u32) -> Option<u32> {
+        let index = self.len() as u32;
+        let hint = spade::handles::FixedVertexHandle::from_index(hint as usize);
+        let before = self.cdt.num_vertices();
+        self.cdt.insert_with_hint(Site { at: tame(at), index }, hint).ok()?;
+        (self.cdt.num_vertices() > before).then_some(index)
+    }
+
+    /// Per face of the triangulation (by index) whether it lies inside the domain.
+    pub fn inside(&self) -> Vec<bool> {
+        if self.intact { self.inside_by_crossing() } else { self.inside_by_centre() }
+    }
+
+    /// Walks from the outside in; every boundary edge that is crossed changes the side.
+    fn inside_by_crossing(&self) -> Vec<bool> {
+        let outer: FixedFaceHandle<PossiblyOuterTag> = self.cdt.outer_face().fix();
+        let mut side: Vec<Option<bool>> = vec![None; self.cdt.num_all_faces()];
+        side[outer.index()] = Some(false);
+        let mut queue: Vec<(FixedFaceHandle<PossiblyOuterTag>, bool)> = Vec::new();
+        for edge in self.cdt.convex_hull() {
+            let inner = edge.rev().face();
+            let inner = if inner.is_outer() { edge.face() } else { inner };
+            self.visit(inner.fix(), self.switches(edge.as_undirected()), &mut side, &mut queue);
+        }
+        while let Some((face, inside)) = queue.pop() {
+            let Some(inner) = self.cdt.face(face).as_inner() else { continue };
+            for edge in inner.adjacent_edges() {
+                let next = edge.rev().face().fix();
+                let switched = inside != self.switches(edge.as_undirected());
+                self.visit(next, switched, &mut side, &mut queue);
+            }
+        }
+        side.into_iter().map(|s| s.unwrap_or(false)).collect()
+    }
+
+    fn visit(
+        &self,
+        face: FixedFaceHandle<PossiblyOuterTag>,
+        inside: bool,
+        side: &mut [Option<bool>],
+        queue: &mut Vec<(FixedFaceHandle<PossiblyOuterTag>, bool)>,
+    ) {
+        if side[face.index()].is_none() {
+            side[face.index()] = Some(inside);
+            queue.push((face, inside));
+        }
+    }
+
+    fn switches(
+        &self,
+        edge: spade::handles::UndirectedEdgeHandle<'_, Site, (), spade::CdtEdge<()>, ()>,
+    ) -> bool {
+        edge.is_constraint_edge() && {
+            let [a, b] = edge.vertices().map(|v| v.data().index);
+            self.slits.is_empty() || !self.slits.contains(&(a.min(b), a.max(b)))
+        }
+    }
+
+    /// Where boundary segments are missing, each triangle is asked for its own middle.
+    fn inside_by_centre(&self) -> Vec<bool> {
+        let mut inside = vec![false; self.cdt.num_all_faces()];
+        for face in self.cdt.inner_faces() {
+            let [a, b, c] = face.vertices().map(|v| v.data().at);
+            let centre = (a + b + c) / 3.0;
+            let around = |p: &&Vec<DVec2>| trimloop_trim::polygon::contains(p.iter().copied(), centre);
+            inside[face.index()] = self.domain_polygons.iter().filter(around).count() % 2 == 1;
+        }
+        inside
+    }
+
+    /// The triangles, counter-clockwise: index of the face and its sites.
+    pub fn triangles(&self) -> impl Iterator<Item = (usize, [u32; 3])> + '_ {
+        self.cdt.inner_faces().map(|f: spade::handles::FaceHandle<'_, InnerTag, _, _, _, _>| {
+            (f.index(), f.vertices().map(|v| v.data().index))
+        })
+    }
+
+    /// The edges that are no boundary: sites, and the faces on both sides (outer face included).
+    pub fn inner_edges(&self) -> impl Iterator<Item = ([u32; 2], [usize; 2])> + '_ {
+        self.cdt.undirected_edges().filter(|e| !e.is_constraint_edge()).map(|e| {
+            let directed = e.as_directed();
+            (e.vertices().map(|v| v.data().index), [directed.face().index(), directed.rev().face().index()])
+        })
+    }
+}
+
+/// How often the boundary runs over each pair of sites.
+fn segment_uses(polygons: &[Vec<DVec2>], site_of_corner: &[u32]) -> HashMap<(u32, u32), u32> {
+    let mut uses = HashMap::new();
+    let mut first = 0;
+    for polygon in polygons {
+        let n = polygon.len();
+        for i in 0..n {
+            let (a, b) = (site_of_corner[first + i], site_of_corner[first + (i + 1) % n]);
+            if a != b {
+                *uses.entry((a.min(b), a.max(b))).or_insert(0) += 1;
+            }
+        }
+        first += n;
+    }
+    uses
+}
