@@ -5,14 +5,18 @@
 //! polygons whose inside is the face.
 
 mod band;
+mod classify;
 mod cut;
 mod domain;
 mod edge_samples;
+mod mask;
 mod nesting;
 pub mod polygon;
 mod tolerance;
 mod unroll;
 
+pub use classify::{Classifier, Side};
 pub use domain::{TrimDomain, TrimError, TrimLoop, TrimVertex};
 pub use edge_samples::{EdgeSamples, EdgeSide, SampledEdge, sample_curve, sample_edges};
+pub use mask::{MaskError, TrimMask};
 pub use tolerance::Tolerance;
