@@ -206,6 +206,7 @@ impl Sampler<'_> {
             }
             samples.push(next);
         }
+        let samples = self.thinned(samples);
         Polyline { samples, sides: self.grounds.iter().map(|g| g.face).collect() }
     }
 
@@ -272,6 +273,45 @@ impl Sampler<'_> {
                 }
             }
         }
+    }
+
+    /// Drops samples that a curve of many short spans has for its knots' sake alone.
+    fn thinned(&self, samples: Vec<Sample>) -> Vec<Sample> {
+        if samples.len() < 6
+            || matches!(self.curve, Curve::Line { .. } | Curve::Circle { .. } | Curve::Ellipse { .. })
+        {
+            return samples;
+        }
+        let mut kept = vec![0];
+        let mut at = 0;
+        let last = samples.len() - 1;
+        let most = last / if self.closed { 4 } else { 1 };
+        while at < last {
+            let reach =
+                (at + 2..=last.min(at + most.min(64))).take_while(|&to| self.spans(&samples[at..=to])).last();
+            at = reach.unwrap_or(at + 1);
+            kept.push(at);
+        }
+        kept.into_iter().map(|i| samples[i].clone()).collect()
+    }
+
+    /// Whether one chord may stand for all of `run`, with half the tolerance left for what lies between the samples.
+    fn spans(&self, run: &[Sample]) -> bool {
+        let (Some(a), Some(b)) = (run.first(), run.last()) else { return false };
+        let Some(along) = (b.point - a.point).try_normalize() else { return false };
+        let inner = &run[1..run.len() - 1];
+        let near = |s: &Sample| {
+            let off = (s.point - a.point).reject_from_normalized(along).length();
+            off <= self.tolerance.linear_mm * 0.5 && s.sides.iter().all(|f| f.singular.is_none())
+        };
+        let straight = |pair: &[Sample]| {
+            (pair[1].point - pair[0].point).angle_between(along) <= self.tolerance.angular_rad * 0.45
+        };
+        inner.iter().all(near)
+            && run.windows(2).all(straight)
+            && !run[1..].iter().any(|s| {
+                a.sides.iter().zip(&s.sides).zip(self.grounds).any(|((fa, fs), g)| self.turns(g, fa, fs))
+            })
     }
 
     fn sample(&self, t: f64, point: DVec3, near: Option<&Sample>, other: Option<&Sample>) -> Sample {

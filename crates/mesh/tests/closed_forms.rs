@@ -1,0 +1,286 @@
+//! Bodies whose area and volume are known in closed form, built edge by edge.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use glam::DVec3;
+use trimloop_brep::{
+    Body, BodyKind, Coedge, Edge, EntityRef, Face, FaceGeometry, Loop, Part, Shell, ShellFace, Vertex,
+};
+use trimloop_geom::{Curve, Frame, Interval, Surface};
+use trimloop_mesh::{FaceStatus, LinearDeflection, MeshOptions, PartMesh, Silent, mesh_part};
+
+/// Builds a part with one shell.
+#[derive(Default)]
+struct Builder {
+    part: Part,
+}
+
+impl Builder {
+    fn vertex(&mut self, point: DVec3) -> u32 {
+        self.part.vertices.push(Vertex { entity: EntityRef::None, point });
+        self.part.vertices.len() as u32 - 1
+    }
+
+    fn edge(&mut self, start: u32, end: u32, curve: Curve, range: Interval) -> u32 {
+        let curve = Arc::new(curve);
+        self.part.edges.push(Edge { entity: EntityRef::None, start, end, curve, range, same_sense: true });
+        self.part.edges.len() as u32 - 1
+    }
+
+    /// A full circle about +Z.
+    fn circle(&mut self, radius: f64, z: f64) -> u32 {
+        let frame = Frame { origin: DVec3::Z * z, ..Frame::WORLD };
+        let start = self.vertex(DVec3::new(radius, 0.0, z));
+        self.edge(start, start, Curve::Circle { frame, radius }, Interval::new(0.0, TAU))
+    }
+
+    /// A face with single-edge loops.
+    fn face(&mut self, surface: Surface, same_sense: bool, loops: &[&[(u32, bool)]]) {
+        let coedge = |&(edge, reversed): &(u32, bool)| Coedge { edge, reversed, pcurve: None };
+        let loops = loops
+            .iter()
+            .map(|l| Loop { coedges: l.iter().map(coedge).collect(), ..Loop::default() })
+            .collect();
+        self.part.faces.push(Face {
+            entity: EntityRef::Step(self.part.faces.len() as u64),
+            name: String::new(),
+            geometry: FaceGeometry::Surface(Arc::new(surface)),
+            same_sense,
+            loops,
+            color: None,
+            hidden: false,
+        });
+    }
+
+    fn mesh(mut self, solid: bool, deflection: f64) -> PartMesh {
+        let faces =
+            (0..self.part.faces.len() as u32).map(|face| ShellFace { face, reversed: false }).collect();
+        let shell = Shell { entity: EntityRef::None, closed: solid, void: false, faces };
+        self.part.bodies.push(Body {
+            name: String::new(),
+            entity: EntityRef::None,
+            kind: if solid { BodyKind::Solid } else { BodyKind::Sheet },
+            shells: vec![shell],
+            layers: Vec::new(),
+        });
+        let options = MeshOptions {
+            linear_deflection: LinearDeflection::Absolute(deflection),
+            angular_deflection_rad: 10f64.to_radians(),
+            ..MeshOptions::default()
+        };
+        mesh_part(&self.part, &options, &Silent).expect("not cancelled")
+    }
+}
+
+fn area(mesh: &PartMesh) -> f64 {
+    mesh.faces.iter().map(|f| f.area_mm2).sum()
+}
+
+fn assert_closed(mesh: &PartMesh, area_mm2: f64, volume_mm3: f64) {
+    assert_eq!(mesh.shells[0].open_edges, 0, "open edges");
+    for face in &mesh.faces {
+        assert_eq!(face.status, FaceStatus::Exact);
+    }
+    assert!((area(mesh) / area_mm2 - 1.0).abs() < 5e-3, "area {} for {area_mm2}", area(mesh));
+    let volume = mesh.shells[0].volume_mm3;
+    assert!((volume / volume_mm3 - 1.0).abs() < 1e-2, "volume {volume} for {volume_mm3}");
+    assert_balanced(mesh);
+}
+
+/// Every directed triangle edge has its opposite.
+fn assert_balanced(mesh: &PartMesh) {
+    let mut net = std::collections::HashMap::new();
+    for face in &mesh.faces {
+        for t in &face.triangles {
+            let [a, b, c] = t.map(|i| face.vertices[i as usize].position);
+            for (p, q) in [(a, b), (b, c), (c, a)] {
+                *net.entry((p.min(q), p.max(q))).or_insert(0) += if p < q { 1 } else { -1 };
+            }
+        }
+    }
+    assert!(net.values().all(|&n| n == 0), "{} unbalanced edges", net.values().filter(|&&n| n != 0).count());
+}
+
+fn assert_within(mesh: &PartMesh, distance: impl Fn(DVec3) -> f64, bound: f64) {
+    for face in &mesh.faces {
+        for t in &face.triangles {
+            let [a, b, c] = t.map(|i| mesh.positions[face.vertices[i as usize].position as usize]);
+            for i in 0..=6 {
+                for j in 0..=(6 - i) {
+                    let (u, v) = (f64::from(i) / 6.0, f64::from(j) / 6.0);
+                    let p = a * (1.0 - u - v) + b * u + c * v;
+                    assert!(distance(p) <= bound, "{} off at {p}", distance(p));
+                }
+            }
+        }
+    }
+}
+
+fn sphere(radius: f64) -> Surface {
+    Surface::Sphere { frame: Frame::WORLD, radius }
+}
+
+fn cylinder(radius: f64) -> Surface {
+    Surface::Cylinder { frame: Frame::WORLD, radius }
+}
+
+fn plane(z: f64) -> Surface {
+    Surface::Plane { frame: Frame { origin: DVec3::Z * z, ..Frame::WORLD } }
+}
+
+fn torus(major: f64, minor: f64) -> Surface {
+    Surface::Torus { frame: Frame::WORLD, major, minor, v_range: None }
+}
+
+#[test]
+fn a_whole_sphere_needs_no_bound() {
+    let mut b = Builder::default();
+    b.face(sphere(10.0), true, &[]);
+    let mesh = b.mesh(true, 0.01);
+    assert_closed(&mesh, 400.0 * PI, 4000.0 / 3.0 * PI);
+    assert_within(&mesh, |p| (p.length() - 10.0).abs(), 0.01);
+}
+
+#[test]
+fn a_whole_torus_needs_no_bound() {
+    let mut b = Builder::default();
+    b.face(torus(10.0, 3.0), true, &[]);
+    let mesh = b.mesh(true, 0.01);
+    assert_closed(&mesh, 4.0 * PI * PI * 30.0, 2.0 * PI * PI * 90.0);
+    assert_within(&mesh, |p| ((p.truncate().length() - 10.0).hypot(p.z) - 3.0).abs(), 0.01);
+}
+
+#[test]
+fn a_cylinder_without_a_seam_is_cut_open_and_closed_again() {
+    let mut b = Builder::default();
+    let (low, high) = (b.circle(5.0, 0.0), b.circle(5.0, 20.0));
+    b.face(cylinder(5.0), true, &[&[(low, false)], &[(high, true)]]);
+    b.face(plane(0.0), false, &[&[(low, true)]]);
+    b.face(plane(20.0), true, &[&[(high, false)]]);
+    let mesh = b.mesh(true, 0.01);
+    assert_closed(&mesh, 2.0 * PI * 25.0 + TAU * 5.0 * 20.0, PI * 25.0 * 20.0);
+}
+
+#[test]
+fn a_cylinder_with_a_seam_edge_closes_over_it() {
+    let mut b = Builder::default();
+    let (low, high) = (b.circle(5.0, 0.0), b.circle(5.0, 20.0));
+    let line = Curve::Line { origin: DVec3::X * 5.0, direction: DVec3::Z };
+    let seam = b.edge(0, 1, line, Interval::new(0.0, 20.0));
+    b.face(cylinder(5.0), true, &[&[(low, false), (seam, false), (high, true), (seam, true)]]);
+    b.face(plane(0.0), false, &[&[(low, true)]]);
+    b.face(plane(20.0), true, &[&[(high, false)]]);
+    assert_closed(&b.mesh(true, 0.01), 2.0 * PI * 25.0 + TAU * 5.0 * 20.0, PI * 25.0 * 20.0);
+}
+
+#[test]
+fn a_cone_reaches_its_apex() {
+    let mut b = Builder::default();
+    let rim = b.circle(6.0, 0.0);
+    // Radius 6 at z = 0, narrowing upwards to the apex at z = 8.
+    let half_angle_rad = -(6f64 / 8.0).atan();
+    b.face(Surface::Cone { frame: Frame::WORLD, radius: 6.0, half_angle_rad }, true, &[&[(rim, false)]]);
+    b.face(plane(0.0), false, &[&[(rim, true)]]);
+    assert_closed(&b.mesh(true, 0.01), PI * 36.0 + PI * 60.0, PI * 36.0 * 8.0 / 3.0);
+}
+
+#[test]
+fn a_sphere_cap_holds_its_pole() {
+    let mut b = Builder::default();
+    let rim = b.circle(8.0, 6.0);
+    b.face(sphere(10.0), true, &[&[(rim, false)]]);
+    b.face(plane(6.0), false, &[&[(rim, true)]]);
+    let h = 4.0;
+    assert_closed(&b.mesh(true, 0.01), TAU * 10.0 * h + PI * 64.0, PI * h * h * (30.0 - h) / 3.0);
+}
+
+#[test]
+fn a_sphere_below_a_circle_is_the_rest_of_it() {
+    let mut b = Builder::default();
+    let rim = b.circle(8.0, 6.0);
+    b.face(sphere(10.0), true, &[&[(rim, true)]]);
+    b.face(plane(6.0), true, &[&[(rim, false)]]);
+    let h = 16.0;
+    assert_closed(&b.mesh(true, 0.01), TAU * 10.0 * h + PI * 64.0, PI * h * h * (30.0 - h) / 3.0);
+}
+
+#[test]
+fn a_sphere_with_a_hole_off_its_poles_is_the_complement() {
+    let mut b = Builder::default();
+    // A circle of radius 6 about +X at x = 8, clockwise seen from outside: the face is everything else.
+    let frame = Frame::new(DVec3::X * 8.0, DVec3::X, DVec3::Y);
+    let start = b.vertex(DVec3::new(8.0, 6.0, 0.0));
+    let rim = b.edge(start, start, Curve::Circle { frame, radius: 6.0 }, Interval::new(0.0, TAU));
+    b.face(sphere(10.0), true, &[&[(rim, true)]]);
+    b.face(Surface::Plane { frame }, true, &[&[(rim, false)]]);
+    let h = 18.0;
+    assert_closed(&b.mesh(true, 0.01), TAU * 10.0 * h + PI * 36.0, PI * h * h * (30.0 - h) / 3.0);
+}
+
+#[test]
+fn half_a_sphere_through_its_poles_by_one_circle() {
+    let mut b = Builder::default();
+    // The great circle in the plane y = 0, about +Y: the face lies on its +y side.
+    let frame = Frame::new(DVec3::ZERO, -DVec3::Y, DVec3::X);
+    let start = b.vertex(DVec3::X * 10.0);
+    let rim = b.edge(start, start, Curve::Circle { frame, radius: 10.0 }, Interval::new(0.0, TAU));
+    b.face(sphere(10.0), true, &[&[(rim, true)]]);
+    b.face(Surface::Plane { frame }, true, &[&[(rim, false)]]);
+    assert_closed(&b.mesh(true, 0.01), 300.0 * PI, 2000.0 / 3.0 * PI);
+}
+
+#[test]
+fn an_octant_of_a_sphere_has_a_corner_at_the_pole() {
+    let mut b = Builder::default();
+    let corners = [DVec3::X, DVec3::Y, DVec3::Z].map(|p| b.vertex(p * 10.0));
+    let arc = |b: &mut Builder, from: usize, to: usize| {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let frame = Frame::new(DVec3::ZERO, axes[from].cross(axes[to]), axes[from]);
+        b.edge(
+            corners[from],
+            corners[to],
+            Curve::Circle { frame, radius: 10.0 },
+            Interval::new(0.0, PI / 2.0),
+        )
+    };
+    let edges = [arc(&mut b, 0, 1), arc(&mut b, 1, 2), arc(&mut b, 2, 0)];
+    b.face(sphere(10.0), true, &[&[(edges[0], false), (edges[1], false), (edges[2], false)]]);
+    let mesh = b.mesh(false, 0.01);
+    assert!((area(&mesh) / (50.0 * PI) - 1.0).abs() < 5e-3, "area {}", area(&mesh));
+    assert_within(&mesh, |p| (p.length() - 10.0).abs(), 0.01);
+}
+
+#[test]
+fn a_tube_bend_is_a_torus_between_two_circles() {
+    let mut b = Builder::default();
+    let ring = |b: &mut Builder, turn: f64| {
+        let out = DVec3::new(turn.cos(), turn.sin(), 0.0);
+        let frame = Frame::new(out * 10.0, out.cross(DVec3::Z), out);
+        let start = b.vertex(out * 13.0);
+        (b.edge(start, start, Curve::Circle { frame, radius: 3.0 }, Interval::new(0.0, TAU)), frame)
+    };
+    let (first, first_frame) = ring(&mut b, 0.0);
+    let (second, second_frame) = ring(&mut b, PI / 2.0);
+    // `out x Z` points against the direction of travel: seen from outside the body, the first ring runs backwards.
+    b.face(torus(10.0, 3.0), true, &[&[(first, false)], &[(second, true)]]);
+    b.face(Surface::Plane { frame: first_frame }, true, &[&[(first, false)]]);
+    b.face(Surface::Plane { frame: second_frame }, false, &[&[(second, true)]]);
+    let mesh = b.mesh(true, 0.01);
+    let whole = 4.0 * PI * PI * 30.0;
+    assert!((area(&mesh) / (whole / 4.0 + 18.0 * PI) - 1.0).abs() < 5e-3, "area {}", area(&mesh));
+    assert_eq!(mesh.shells[0].open_edges, 0);
+    assert!((mesh.shells[0].volume_mm3 / (PI * PI * 90.0 / 2.0) - 1.0).abs() < 1e-2);
+}
+
+#[test]
+fn a_face_that_looks_the_wrong_way_is_turned_and_reported() {
+    let mut b = Builder::default();
+    let (low, high) = (b.circle(5.0, 0.0), b.circle(5.0, 20.0));
+    b.face(cylinder(5.0), true, &[&[(low, false)], &[(high, true)]]);
+    b.face(plane(0.0), true, &[&[(low, true)]]);
+    b.face(plane(20.0), true, &[&[(high, false)]]);
+    let mesh = b.mesh(true, 0.01);
+    assert_closed(&mesh, 2.0 * PI * 25.0 + TAU * 5.0 * 20.0, PI * 25.0 * 20.0);
+    assert!(mesh.diagnostics.iter().any(|d| d.code == "face-orientation"));
+}
