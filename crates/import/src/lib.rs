@@ -1,8 +1,44 @@
 //! What CAD file entities mean: STEP (AP203, AP214, AP242) to the exact model.
+//!
+//! ```
+//! use trimloop_import::import_step;
+//! use trimloop_part21::Exchange;
+//!
+//! let text = "ISO-10303-21;
+//! HEADER;
+//! FILE_DESCRIPTION((''),'2;1');
+//! FILE_NAME('','',(''),(''),'','','');
+//! FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));
+//! ENDSEC;
+//! DATA;
+//! #1=CARTESIAN_POINT('',(0.,0.,0.));
+//! #2=AXIS2_PLACEMENT_3D('',#1,$,$);
+//! #3=SPHERICAL_SURFACE('',#2,2.);
+//! #4=ADVANCED_FACE('ball',(),#3,.T.);
+//! #5=CLOSED_SHELL('',(#4));
+//! #6=MANIFOLD_SOLID_BREP('solid',#5);
+//! ENDSEC;
+//! END-ISO-10303-21;";
+//! let model = import_step(&Exchange::parse(text.into())?)?;
+//! assert_eq!(model.parts[0].bodies[0].name, "solid");
+//! assert_eq!(model.parts[0].faces[0].name, "ball");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! One pass classifies the records; products, uses and styles are then read once each, and every part on its own:
+//! first its topology, which only follows references, then its geometry, each curve, surface and edge by itself.
+//! What is wrong with the file is repaired where that is possible and reported in any case; one bad entity costs
+//! at most its face.
+
+mod sniff;
+mod step;
 
 use std::path::Path;
 
 use trimloop_brep::Model;
+use trimloop_part21::{Exchange, ReadError, ReadOptions};
+
+pub use self::sniff::Format;
 
 /// What the caller wants of an import.
 #[derive(Clone, Debug)]
@@ -23,7 +59,7 @@ impl Default for ImportOptions {
 pub enum ImportError {
     /// The file could not be read as an exchange file.
     #[error(transparent)]
-    Part21(#[from] trimloop_part21::ReadError),
+    Part21(#[from] ReadError),
     /// Nothing in it is geometry that can be shown.
     #[error("{0}")]
     Nothing(String),
@@ -31,12 +67,11 @@ pub enum ImportError {
 
 /// Reads a CAD file, whatever its format (by content, not by name).
 pub fn read(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
-    let _ = (path, options);
-    todo!()
+    let read = ReadOptions { max_bytes: options.max_unpacked_bytes, ..ReadOptions::default() };
+    import_step(&Exchange::read(path, &read)?)
 }
 
 /// The exact model of a parsed STEP file.
-pub fn import_step(exchange: &trimloop_part21::Exchange) -> Result<Model, ImportError> {
-    let _ = exchange;
-    todo!()
+pub fn import_step(exchange: &Exchange) -> Result<Model, ImportError> {
+    step::import(exchange)
 }

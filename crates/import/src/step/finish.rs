@@ -1,0 +1,268 @@
+//! From a part's seeds to its exact geometry: every curve, surface, edge and face on its own, in parallel.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use trimloop_brep::{
+    Coedge, Diagnostic, Diagnostics, Edge, EntityRef, Face, FaceGeometry, Loop, Part, Severity, Vertex,
+};
+use trimloop_geom::{Curve, Frame, Interval, Surface};
+
+use super::edge_range::edge_range;
+use super::fault::{Fault, Outcome};
+use super::parallel::map;
+use super::reader::{Budget, Reader};
+use super::seeds::{EdgeCurve, EdgeSeed, FaceSeed, FaceSurface, Seeds, VertexSeed};
+use super::table::Table;
+use super::units::Units;
+
+/// How far a vertex may lie off its edge's curve without being reported, millimetres, where the file states no
+/// larger uncertainty.
+const UNREPORTED_GAP_MM: f64 = 1e-3;
+
+/// Reads all geometry of a part.
+pub(crate) fn finish(table: &Table<'_>, budget: &Budget, seeds: Seeds) -> (Part, Diagnostics) {
+    let stage = Stage { table, budget };
+    let mut diagnostics = seeds.diagnostics;
+    let points = map(&seeds.vertices, |vertex| stage.point(vertex));
+    let curves = collect(map(&seeds.curves, |&(index, units)| stage.curve(index, units)), &mut diagnostics);
+    let surfaces =
+        collect(map(&seeds.surfaces, |&(index, units)| stage.surface(index, units)), &mut diagnostics);
+    let edges = collect(map(&seeds.edges, |edge| stage.edge(edge, &points, &curves)), &mut diagnostics);
+    let mut faces = Vec::with_capacity(seeds.faces.len());
+    for seed in seeds.faces {
+        faces.push(stage.face(seed, &points, &surfaces, &edges, &mut diagnostics));
+    }
+    let vertices = seeds.vertices.iter().zip(&points).map(|(seed, point)| Vertex {
+        entity: stage.vertex_entity(seed),
+        point: point.as_ref().copied().unwrap_or_default(),
+    });
+    let mut part = Part {
+        bodies: seeds.bodies,
+        faces,
+        vertices: vertices.collect(),
+        curves: seeds.free_curves,
+        facet_points: seeds.facet_points,
+        ..Part::default()
+    };
+    keep_used_edges(&mut part, edges);
+    (part, diagnostics)
+}
+
+/// Separates values from the notes taken while they were read.
+fn collect<T>(read: Vec<(T, Diagnostics)>, diagnostics: &mut Diagnostics) -> Vec<T> {
+    let values = read.into_iter().map(|(value, mut notes)| {
+        diagnostics.append(&mut notes);
+        value
+    });
+    values.collect()
+}
+
+/// Drops edges that could not be read and renumbers the rest; no face refers to a dropped one.
+fn keep_used_edges(part: &mut Part, edges: Vec<Outcome<Edge>>) {
+    let mut number = vec![u32::MAX; edges.len()];
+    for (old, edge) in edges.into_iter().enumerate() {
+        if let Ok(edge) = edge {
+            number[old] = part.edges.len() as u32;
+            part.edges.push(edge);
+        }
+    }
+    for coedge in part.faces.iter_mut().flat_map(|face| &mut face.loops).flat_map(|bound| &mut bound.coedges)
+    {
+        coedge.edge = number[coedge.edge as usize];
+    }
+}
+
+struct Stage<'t> {
+    table: &'t Table<'t>,
+    budget: &'t Budget,
+}
+
+impl<'t> Stage<'t> {
+    fn reader(&self, units: Units) -> Reader<'t> {
+        Reader::new(self.table, self.budget, units)
+    }
+
+    fn vertex_entity(&self, seed: &VertexSeed) -> EntityRef {
+        match seed {
+            VertexSeed::Entity { index, .. } => self.table.entity(*index),
+            VertexSeed::Point(_) => EntityRef::None,
+        }
+    }
+
+    fn point(&self, seed: &VertexSeed) -> Outcome<DVec3> {
+        match *seed {
+            VertexSeed::Entity { index, units } => {
+                let reader = self.reader(units);
+                if self.table.kind(index) == super::keyword::Kind::VertexPoint {
+                    let mut attributes = self.table.attributes(index).after(1);
+                    reader.point(attributes.reference("vertex geometry")?)
+                } else {
+                    reader.point(index)
+                }
+            }
+            VertexSeed::Point(point) => Ok(point),
+        }
+    }
+
+    fn curve(&self, index: usize, units: Units) -> (Outcome<Arc<Curve>>, Diagnostics) {
+        let mut reader = self.reader(units);
+        (reader.curve(index).map(Arc::new), reader.notes)
+    }
+
+    fn surface(&self, index: usize, units: Units) -> (Outcome<Arc<Surface>>, Diagnostics) {
+        let mut reader = self.reader(units);
+        (reader.surface(index).map(Arc::new), reader.notes)
+    }
+
+    fn edge(
+        &self,
+        seed: &EdgeSeed,
+        points: &[Outcome<DVec3>],
+        curves: &[Outcome<Arc<Curve>>],
+    ) -> (Outcome<Edge>, Diagnostics) {
+        let mut notes = Vec::new();
+        let edge = self.place_edge(seed, points, curves, &mut notes);
+        (edge, notes)
+    }
+
+    fn place_edge(
+        &self,
+        seed: &EdgeSeed,
+        points: &[Outcome<DVec3>],
+        curves: &[Outcome<Arc<Curve>>],
+        notes: &mut Diagnostics,
+    ) -> Outcome<Edge> {
+        let start = points[seed.start as usize].clone()?;
+        let end = points[seed.end as usize].clone()?;
+        let entity = seed.index.map_or(EntityRef::None, |index| self.table.entity(index));
+        let made = |curve, range, same_sense| Edge {
+            entity,
+            start: seed.start,
+            end: seed.end,
+            curve,
+            range,
+            same_sense,
+        };
+        let curve = match &seed.curve {
+            EdgeCurve::Slot(slot) => curves[*slot].clone()?,
+            EdgeCurve::Straight => {
+                let curve = Curve::Line { origin: start, direction: end - start };
+                return Ok(made(Arc::new(curve), Interval::new(0.0, 1.0), true));
+            }
+            EdgeCurve::Ready(curve, range) => return Ok(made(curve.clone(), *range, seed.same_sense)),
+        };
+        let tolerance = seed.units.uncertainty_mm.clamp(1e-7, 0.1);
+        let found = edge_range(&curve, start, end, seed.start == seed.end, seed.same_sense, tolerance);
+        if !found.range.is_finite() {
+            return Err(Fault { entity, message: format!("{entity} does not lie on its curve") });
+        }
+        self.note_edge(entity, seed, &found, notes);
+        Ok(made(curve, found.range, found.same_sense))
+    }
+
+    fn note_edge(
+        &self,
+        entity: EntityRef,
+        seed: &EdgeSeed,
+        found: &super::edge_range::EdgeRange,
+        notes: &mut Diagnostics,
+    ) {
+        if found.gap > UNREPORTED_GAP_MM.max(2.0 * seed.units.uncertainty_mm) {
+            let message = format!("A vertex of edge {entity} lies {:.3} mm off the edge's curve.", found.gap);
+            notes.push(Diagnostic::new(Severity::Warning, "vertex-off-curve", entity, message));
+        }
+        if found.same_sense != seed.same_sense && seed.start != seed.end {
+            let message = format!(
+                "Edge {entity} runs against its curve, not with it as the file says (or the reverse)."
+            );
+            notes.push(Diagnostic::new(Severity::Warning, "edge-sense", entity, message));
+        }
+    }
+
+    fn face(
+        &self,
+        seed: FaceSeed,
+        points: &[Outcome<DVec3>],
+        surfaces: &[Outcome<Arc<Surface>>],
+        edges: &[Outcome<Edge>],
+        diagnostics: &mut Diagnostics,
+    ) -> Face {
+        let entity = self.table.entity(seed.index);
+        let geometry = self.face_geometry(&seed, points, surfaces, edges);
+        let (geometry, loops) = match geometry {
+            Ok(geometry) => (geometry, seed.loops),
+            Err(fault) => {
+                let message = format!("Face {entity} is lost: {}.", fault.message);
+                diagnostics.push(
+                    Diagnostic::new(Severity::Error, "face-unreadable", fault.entity, message)
+                        .on_face(entity),
+                );
+                (FaceGeometry::Unreadable(fault.message), Vec::new())
+            }
+        };
+        Face {
+            entity,
+            name: seed.name,
+            geometry,
+            same_sense: seed.same_sense,
+            loops,
+            color: seed.color,
+            hidden: seed.hidden,
+        }
+    }
+
+    fn face_geometry(
+        &self,
+        seed: &FaceSeed,
+        points: &[Outcome<DVec3>],
+        surfaces: &[Outcome<Arc<Surface>>],
+        edges: &[Outcome<Edge>],
+    ) -> Outcome<FaceGeometry> {
+        let surface = seed.surface.as_ref().map_err(Clone::clone)?;
+        for bound in &seed.loops {
+            if let Some(vertex) = bound.vertex {
+                points[vertex as usize].as_ref().map_err(Clone::clone)?;
+            }
+            for coedge in &bound.coedges {
+                edges[coedge.edge as usize].as_ref().map_err(Clone::clone)?;
+            }
+        }
+        match surface {
+            FaceSurface::Slot(slot) => surfaces[*slot].clone().map(FaceGeometry::Surface),
+            FaceSurface::Ready(surface) => Ok(FaceGeometry::Surface(surface.clone())),
+            FaceSurface::Facets(facets) => Ok(FaceGeometry::Facets(facets.clone())),
+            FaceSurface::Flat => {
+                let plane = polygon_plane(&seed.loops, points, edges);
+                let fault = || Fault {
+                    entity: self.table.entity(seed.index),
+                    message: "the face has no area".into(),
+                };
+                Ok(FaceGeometry::Surface(Arc::new(Surface::Plane { frame: plane.ok_or_else(fault)? })))
+            }
+        }
+    }
+}
+
+/// The vertex at which a coedge begins.
+fn coedge_start(coedge: &Coedge, edges: &[Outcome<Edge>]) -> Option<u32> {
+    let edge = edges[coedge.edge as usize].as_ref().ok()?;
+    Some(if coedge.reversed { edge.end } else { edge.start })
+}
+
+/// The plane through the face's largest polygon, its normal by Newell's method.
+fn polygon_plane(loops: &[Loop], points: &[Outcome<DVec3>], edges: &[Outcome<Edge>]) -> Option<Frame> {
+    let candidates = loops.iter().filter_map(|bound| {
+        let corners = bound
+            .coedges
+            .iter()
+            .map(|coedge| points[coedge_start(coedge, edges)? as usize].as_ref().ok().copied());
+        let corners = corners.collect::<Option<Vec<_>>>()?;
+        let first = *corners.first()?;
+        let next = corners.iter().cycle().skip(1);
+        let normal: DVec3 = corners.iter().zip(next).map(|(a, b)| (*a - first).cross(*b - first)).sum();
+        Some((normal, first, corners.get(1).copied().unwrap_or(first)))
+    });
+    let (normal, origin, next) = candidates.max_by(|a, b| a.0.length().total_cmp(&b.0.length()))?;
+    (normal.length() > 0.0).then(|| Frame::new(origin, normal, next - origin))
+}

@@ -1,0 +1,179 @@
+//! Products and their uses in each other.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::keyword::Kind;
+use super::representation::Representations;
+use super::table::Table;
+
+/// A product definition: what people call a part or an assembly.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Product {
+    /// The product's name as people see it, else its id.
+    pub name: String,
+    /// The product's id.
+    pub id: String,
+    /// The representations of its shape.
+    pub representations: Vec<usize>,
+    /// What it is assembled from.
+    pub uses: Vec<Use>,
+}
+
+/// One use of a product in another.
+#[derive(Clone, Debug)]
+pub(crate) struct Use {
+    /// The `next_assembly_usage_occurrence`.
+    pub index: usize,
+    /// The product definition that is used.
+    pub child: usize,
+    /// What people call this use: its description, else its name, else its id.
+    pub name: Option<String>,
+    /// The relationship between two representations that places it.
+    pub relationship: Option<usize>,
+    /// The `context_dependent_shape_representation`.
+    pub placed_by: Option<usize>,
+}
+
+/// All product definitions, by entity.
+pub(crate) struct Products {
+    by_index: FxHashMap<usize, Product>,
+    in_order: Vec<usize>,
+    owner_of: FxHashMap<usize, usize>,
+    used: FxHashSet<usize>,
+}
+
+impl Products {
+    /// Reads product definitions, their shapes, and their uses in each other.
+    pub fn new(table: &Table<'_>, representations: &Representations) -> Self {
+        let kinds = [Kind::ProductDefinition, Kind::ProductDefinitionWithAssociatedDocuments];
+        let in_order: Vec<_> = table.of(&kinds).collect();
+        let by_index = in_order.iter().map(|&index| (index, names(table, index))).collect();
+        let mut products =
+            Self { by_index, in_order, owner_of: FxHashMap::default(), used: FxHashSet::default() };
+        let definitions = definitions(table);
+        products.add_shapes(table, representations, &definitions);
+        products.add_uses(table, &definitions);
+        products
+    }
+
+    /// The product definition, if the entity is one.
+    pub fn get(&self, index: usize) -> Option<&Product> {
+        self.by_index.get(&index)
+    }
+
+    /// All product definitions in file order.
+    pub fn indices(&self) -> &[usize] {
+        &self.in_order
+    }
+
+    /// Whose shape a representation is.
+    pub fn owner_of(&self, representation: usize) -> Option<usize> {
+        self.owner_of.get(&representation).copied()
+    }
+
+    /// Whether some other product definition uses this one.
+    pub fn is_used(&self, index: usize) -> bool {
+        self.used.contains(&index)
+    }
+
+    fn add_shapes(
+        &mut self,
+        table: &Table<'_>,
+        representations: &Representations,
+        definitions: &FxHashMap<usize, usize>,
+    ) {
+        let mut direct = Vec::new();
+        for index in table.of(&[Kind::ShapeDefinitionRepresentation, Kind::PropertyDefinitionRepresentation])
+        {
+            let mut attributes = table.attributes(index);
+            let Some(shape) = attributes.optional_reference() else { continue };
+            let Some(representation) = attributes.optional_reference() else { continue };
+            let product = definitions.get(&shape).copied().filter(|owner| self.by_index.contains_key(owner));
+            let Some(product) = product else { continue };
+            if table.kind(shape) == Kind::ProductDefinitionShape
+                && representations.get(representation).is_some()
+            {
+                self.owner_of.entry(representation).or_insert(product);
+                direct.push((product, representation));
+            }
+        }
+        for (product, representation) in direct {
+            let owner_of = &self.owner_of;
+            let foreign = |other| owner_of.get(&other).is_some_and(|&owner| owner != product);
+            let joined = representations.joined_with(representation, foreign);
+            for found in joined {
+                self.owner_of.entry(found).or_insert(product);
+                let own = &mut self.by_index.get_mut(&product).expect("checked above").representations;
+                if !own.contains(&found) {
+                    own.push(found);
+                }
+            }
+        }
+    }
+
+    fn add_uses(&mut self, table: &Table<'_>, definitions: &FxHashMap<usize, usize>) {
+        let placements = placements(table, definitions);
+        for index in table.of(&[Kind::NextAssemblyUsageOccurrence, Kind::AssemblyComponentUsage]) {
+            let mut attributes = table.attributes(index);
+            let (id, name, description) = (attributes.text(), attributes.text(), attributes.text());
+            let (parent, child) = (attributes.optional_reference(), attributes.optional_reference());
+            let (Some(parent), Some(child)) = (parent, child) else { continue };
+            if !self.by_index.contains_key(&child) {
+                continue;
+            }
+            let Some(assembly) = self.by_index.get_mut(&parent) else { continue };
+            // Some systems write a fixed phrase as the name; where there is a description, it is what people see.
+            let shown = [description, name, id].into_iter().find(|text| !text.trim().is_empty());
+            let name = shown.map(|text| text.trim().to_owned());
+            let (placed_by, relationship) = match placements.get(&index) {
+                Some(&(by, relationship)) => (Some(by), Some(relationship)),
+                None => (None, None),
+            };
+            assembly.uses.push(Use { index, child, name, relationship, placed_by });
+            self.used.insert(child);
+        }
+    }
+}
+
+/// What each `product_definition_shape` or other property defines.
+fn definitions(table: &Table<'_>) -> FxHashMap<usize, usize> {
+    let properties = table.of(&[Kind::ProductDefinitionShape, Kind::PropertyDefinition]);
+    properties
+        .filter_map(|index| Some((index, table.attributes(index).after(2).optional_reference()?)))
+        .collect()
+}
+
+/// For each use its `context_dependent_shape_representation` and the relationship in it.
+fn placements(table: &Table<'_>, definitions: &FxHashMap<usize, usize>) -> FxHashMap<usize, (usize, usize)> {
+    let mut placements = FxHashMap::default();
+    for index in table.of(&[Kind::ContextDependentShapeRepresentation]) {
+        let mut attributes = table.attributes(index);
+        let (relationship, shape) = (attributes.optional_reference(), attributes.optional_reference());
+        let usage = shape.and_then(|shape| definitions.get(&shape));
+        if let (Some(relationship), Some(&usage)) = (relationship, usage) {
+            placements.entry(usage).or_insert((index, relationship));
+        }
+    }
+    placements
+}
+
+/// Name and id of a product definition's product.
+fn names(table: &Table<'_>, index: usize) -> Product {
+    let mut attributes = table.attributes(index);
+    let own_id = attributes.text().into_owned();
+    attributes.skip(1);
+    let product = attributes
+        .optional_reference()
+        .and_then(|formation| table.attributes(formation).after(2).optional_reference())
+        .filter(|&product| table.kind(product) == Kind::Product);
+    let (id, name) = match product {
+        Some(product) => {
+            let mut attributes = table.attributes(product);
+            (attributes.text().into_owned(), attributes.text().into_owned())
+        }
+        None => (String::new(), String::new()),
+    };
+    let id = if id.is_empty() { own_id } else { id };
+    let name = if name.trim().is_empty() { id.clone() } else { name };
+    Product { name, id, ..Product::default() }
+}

@@ -1,0 +1,289 @@
+//! AP242 tessellated geometry (ISO 10303-42:2014 §7): solids, shells, faces and surface sets of triangles.
+
+use glam::{DAffine3, DVec3};
+use trimloop_brep::{BodyKind, Diagnostic, Facets, Severity, Shell, ShellFace};
+use trimloop_part21::Param;
+
+use super::attributes::Attributes;
+use super::context::Context;
+use super::fault::{Fault, Outcome};
+use super::keyword::Kind;
+use super::look::Look;
+use super::part_builder::PartBuilder;
+use super::seeds::{FaceSeed, FaceSurface};
+
+/// How deep tessellated items may be nested.
+const MAX_DEPTH: usize = 16;
+
+impl<'t> PartBuilder<'t> {
+    /// A tessellated item; what only annotates (curve and point sets) is left out.
+    pub fn tessellated(&mut self, index: usize, look: Look, context: Context) {
+        if self.has_exact_twin(index) {
+            let entity = self.table.entity(index);
+            let message = format!("{entity} is a tessellation of an exact body that is read already.");
+            self.seeds.diagnostics.push(Diagnostic::new(
+                Severity::Info,
+                "tessellation-left-out",
+                entity,
+                message,
+            ));
+            return;
+        }
+        let name = self.table.attributes(index).text().into_owned();
+        let kind = self.tessellated_kind(index);
+        let mut faces = Vec::new();
+        self.tessellated_faces(index, look, context, DAffine3::IDENTITY, 0, &mut faces);
+        let body_kind = if kind == Kind::TessellatedSolid { BodyKind::Solid } else { BodyKind::Sheet };
+        let closed = kind == Kind::TessellatedSolid;
+        let shell = Shell { entity: self.table.entity(index), closed, void: false, faces };
+        self.add_body(index, name, body_kind, vec![shell]);
+    }
+
+    /// Whether the item says that it stands for an exact body which this part has already.
+    fn has_exact_twin(&self, index: usize) -> bool {
+        let link = match self.tessellated_kind(index) {
+            Kind::TessellatedSolid | Kind::TessellatedShell => {
+                self.table.attributes(index).after(2).optional_reference()
+            }
+            _ => None,
+        };
+        let Some(link) = link else { return false };
+        let twin = self.table.entity(link);
+        self.seeds
+            .bodies
+            .iter()
+            .any(|body| body.entity == twin || body.shells.iter().any(|s| s.entity == twin))
+    }
+
+    /// What a complex instance is beside being repositioned.
+    fn tessellated_kind(&self, index: usize) -> Kind {
+        let kind = self.table.kind(index);
+        if kind != Kind::RepositionedTessellatedItem {
+            return kind;
+        }
+        let instance = self.table.instance(index);
+        let known = [Kind::TessellatedSolid, Kind::TessellatedShell, Kind::TessellatedGeometricSet];
+        known.into_iter().find(|kind| instance.part(kind.keyword()).is_some()).unwrap_or(Kind::Other)
+    }
+
+    fn tessellated_faces(
+        &mut self,
+        index: usize,
+        inherited: Look,
+        context: Context,
+        map: DAffine3,
+        depth: usize,
+        faces: &mut Vec<ShellFace>,
+    ) {
+        let look = self.looks.of(index).over(inherited);
+        match self.tessellated_kind(index) {
+            Kind::TessellatedSolid | Kind::TessellatedShell | Kind::TessellatedGeometricSet
+                if depth < MAX_DEPTH =>
+            {
+                let map = map * self.reposition(index, context);
+                for item in self.table.attributes(index).after(1).found_references() {
+                    self.tessellated_faces(item, look, context, map, depth + 1, faces);
+                }
+            }
+            Kind::TriangulatedFace
+            | Kind::ComplexTriangulatedFace
+            | Kind::TriangulatedSurfaceSet
+            | Kind::ComplexTriangulatedSurfaceSet => {
+                let face = self.facet_face(index, look, context, map);
+                faces.push(ShellFace { face, reversed: false });
+            }
+            _ => {}
+        }
+    }
+
+    fn reposition(&mut self, index: usize, context: Context) -> DAffine3 {
+        if self.table.kind(index) != Kind::RepositionedTessellatedItem {
+            return DAffine3::IDENTITY;
+        }
+        let part = Attributes::of_part(self.table, index, "REPOSITIONED_TESSELLATED_ITEM");
+        let Some(location) = part.and_then(|mut part| part.optional_reference()) else {
+            return DAffine3::IDENTITY;
+        };
+        let mut reader = self.reader(context);
+        let map = reader.placement_or_identity(location);
+        self.seeds.diagnostics.append(&mut reader.notes);
+        map
+    }
+
+    fn facet_face(&mut self, index: usize, look: Look, context: Context, map: DAffine3) -> u32 {
+        let name = self.table.attributes(index).text().into_owned();
+        let surface = self.facets(index, context, map).map(FaceSurface::Facets);
+        self.seeds.faces.push(FaceSeed {
+            index,
+            name,
+            surface,
+            same_sense: true,
+            loops: Vec::new(),
+            color: look.surface,
+            hidden: look.hidden,
+        });
+        (self.seeds.faces.len() - 1) as u32
+    }
+
+    fn facets(&mut self, index: usize, context: Context, map: DAffine3) -> Outcome<Facets> {
+        let kind = self.table.kind(index);
+        let mut attributes = self.table.attributes(index).after(1);
+        let (base, count) = self.coordinates(attributes.reference("coordinates")?, context, map)?;
+        attributes.skip(1);
+        let normals = triples(&mut attributes, "normals")?;
+        if matches!(kind, Kind::TriangulatedFace | Kind::ComplexTriangulatedFace) {
+            attributes.skip(1);
+        }
+        let point_of = attributes.counts("point indices")?;
+        let triangles = if matches!(kind, Kind::TriangulatedFace | Kind::TriangulatedSurfaceSet) {
+            corner_runs(&mut attributes)?.into_iter().filter_map(|run| run.try_into().ok()).collect()
+        } else {
+            let mut triangles: Vec<[usize; 3]> =
+                corner_runs(&mut attributes)?.iter().flat_map(|s| strip(s)).collect();
+            triangles.extend(corner_runs(&mut attributes)?.iter().flat_map(|f| fan(f)));
+            triangles
+        };
+        let fault = || attributes.fault("a triangle refers to a point that does not exist");
+        let corners = Corners { base, count, point_of, normals, map };
+        corners.facets(&triangles).ok_or_else(fault)
+    }
+
+    /// The points of a `coordinates_list` in the part's own, as (first, count).
+    fn coordinates(&mut self, index: usize, context: Context, map: DAffine3) -> Outcome<(u32, usize)> {
+        let identity = map == DAffine3::IDENTITY;
+        if identity && let Some(&known) = self.seeds.coordinates_of.get(&index) {
+            return Ok(known);
+        }
+        if self.table.kind(index) != Kind::CoordinatesList {
+            return Err(self.reader(context).unexpected(index, "list of coordinates"));
+        }
+        let mut attributes = self.table.attributes(index).after(2);
+        let points = triples(&mut attributes, "coordinates")?;
+        let base = self.seeds.facet_points.len();
+        let found = (base as u32, points.len());
+        if base + points.len() > u32::MAX as usize {
+            return Err(Fault::new(self.table.id(index), "has too many points"));
+        }
+        let scale = context.units.length_mm;
+        self.seeds.facet_points.extend(points.iter().map(|&point| map.transform_point3(point * scale)));
+        if identity {
+            self.seeds.coordinates_of.insert(index, found);
+        }
+        Ok(found)
+    }
+}
+
+/// What a face's triangles refer to.
+struct Corners {
+    base: u32,
+    count: usize,
+    point_of: Vec<usize>,
+    normals: Vec<DVec3>,
+    map: DAffine3,
+}
+
+impl Corners {
+    /// Triangles over the part's points; `None` when one refers to nothing. Corners count from 1.
+    fn facets(&self, triangles: &[[usize; 3]]) -> Option<Facets> {
+        let mut facets = Facets::default();
+        let with_normals = !self.normals.is_empty();
+        for corners in triangles {
+            let mut points = [0; 3];
+            let mut normals = [DVec3::ZERO; 3];
+            for (i, &corner) in corners.iter().enumerate() {
+                points[i] = self.point(corner)?;
+                if with_normals {
+                    normals[i] = self.normal(corner)?;
+                }
+            }
+            if points[0] == points[1] || points[1] == points[2] || points[2] == points[0] {
+                continue;
+            }
+            facets.triangles.push(points);
+            if with_normals {
+                facets.normals.push(normals);
+            }
+        }
+        if facets.normals.iter().flatten().any(|&normal| normal == DVec3::ZERO) {
+            facets.normals.clear();
+        }
+        Some(facets)
+    }
+
+    fn point(&self, corner: usize) -> Option<u32> {
+        let local = if self.point_of.is_empty() {
+            corner.checked_sub(1)?
+        } else {
+            self.point_of.get(corner.checked_sub(1)?)?.checked_sub(1)?
+        };
+        (local < self.count).then_some(self.base + local as u32)
+    }
+
+    /// The normal of a corner: one for all, or one for each.
+    fn normal(&self, corner: usize) -> Option<DVec3> {
+        let normal = if self.normals.len() == 1 {
+            self.normals[0]
+        } else {
+            *self.normals.get(corner.checked_sub(1)?)?
+        };
+        Some(self.map.transform_vector3(normal).normalize_or_zero())
+    }
+}
+
+/// A list of lists of three numbers.
+fn triples(attributes: &mut Attributes<'_>, what: &str) -> Outcome<Vec<DVec3>> {
+    let mut values = Vec::new();
+    for param in attributes.list(what)? {
+        let Param::List(mut triple) = param else {
+            return Err(attributes.fault(format!("{what} holds what is no triple")));
+        };
+        let mut next = || attributes.number(triple.next(), what);
+        values.push(DVec3::new(next()?, next()?, next()?));
+    }
+    Ok(values)
+}
+
+/// A list of lists of point numbers.
+fn corner_runs(attributes: &mut Attributes<'_>) -> Outcome<Vec<Vec<usize>>> {
+    let mut runs = Vec::new();
+    for param in attributes.list("triangles")? {
+        let Param::List(run) = param else {
+            return Err(attributes.fault("a triangle is not a list"));
+        };
+        let run: Option<Vec<usize>> = run
+            .map(|corner| match corner {
+                Param::Integer(value) => usize::try_from(value).ok(),
+                _ => None,
+            })
+            .collect();
+        runs.push(run.ok_or_else(|| attributes.fault("a triangle's corner is not a number"))?);
+    }
+    Ok(runs)
+}
+
+/// The triangles of a strip, every second one turned so that all face the same way.
+fn strip(corners: &[usize]) -> Vec<[usize; 3]> {
+    let windows = corners.windows(3).enumerate();
+    windows.map(|(i, c)| if i % 2 == 0 { [c[0], c[1], c[2]] } else { [c[1], c[0], c[2]] }).collect()
+}
+
+/// The triangles of a fan about its first corner.
+fn fan(corners: &[usize]) -> Vec<[usize; 3]> {
+    let Some((&first, rest)) = corners.split_first() else { return Vec::new() };
+    rest.windows(2).map(|c| [first, c[0], c[1]]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strip_triangles_face_the_same_way() {
+        assert_eq!(strip(&[1, 2, 3, 4]), [[1, 2, 3], [3, 2, 4]]);
+    }
+
+    #[test]
+    fn fan_turns_about_its_first_corner() {
+        assert_eq!(fan(&[7, 1, 2, 3]), [[7, 1, 2], [7, 2, 3]]);
+    }
+}
