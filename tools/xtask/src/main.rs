@@ -1,2 +1,74 @@
 //! `cargo xtask`: what developers repeat.
-fn main() {}
+
+mod command;
+mod validate_gltf;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use clap::{Parser, Subcommand};
+
+use crate::command::{cargo, run};
+
+/// What developers repeat.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
+
+/// A task.
+#[derive(Debug, Subcommand)]
+enum Task {
+    /// Make the fixtures and their references again (installs cadquery in an environment of its own)
+    Fixtures {
+        /// Passed on to tools/reference/make
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<String>,
+    },
+    /// Convert every fixture in every way and run the Khronos validator over the results
+    ValidateGltf,
+    /// Run the Criterion benchmarks
+    Bench {
+        /// Passed on to cargo bench
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<String>,
+    },
+    /// Fuzz (needs a nightly toolchain and cargo-fuzz)
+    Fuzz {
+        /// The target
+        target: String,
+        /// How long
+        #[arg(long, default_value_t = 10)]
+        minutes: u32,
+    },
+    /// Build the documentation, warnings denied
+    Docs,
+}
+
+fn main() -> anyhow::Result<()> {
+    let root = root()?;
+    match Arguments::parse().task {
+        Task::Fixtures { arguments } => run(root.join("tools/reference/make"), &root, arguments),
+        Task::ValidateGltf => validate_gltf::run(&root),
+        Task::Bench { arguments } => {
+            cargo(&root, ["bench", "--workspace"].into_iter().map(str::to_string).chain(arguments))
+        }
+        Task::Fuzz { target, minutes } => fuzz(&root, &target, minutes),
+        Task::Docs => {
+            command::cargo_with(&root, ["doc", "--workspace", "--no-deps"], [("RUSTDOCFLAGS", "-D warnings")])
+        }
+    }
+}
+
+fn fuzz(root: &Path, target: &str, minutes: u32) -> anyhow::Result<()> {
+    let seconds = format!("-max_total_time={}", 60 * minutes);
+    cargo(root, ["+nightly", "fuzz", "run", target, "--", &seconds])
+}
+
+/// The workspace's folder.
+fn root() -> anyhow::Result<PathBuf> {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.ancestors().nth(2).map(Path::to_path_buf).context("xtask lies in tools/xtask")
+}
