@@ -1,2 +1,39 @@
-//! The `trimloop` command.
-fn main() {}
+//! The `trimloop` command: CAD files (STEP) to glTF, and what is in them.
+
+mod arguments;
+mod contained;
+mod convert;
+mod draft;
+mod inspect;
+mod inspect_text;
+mod interrupt;
+mod manual;
+mod outcome;
+mod plan;
+mod progress;
+mod quantity;
+mod report;
+mod report_sink;
+mod summary;
+mod tally;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::arguments::{Arguments, Command};
+use crate::outcome::Outcome;
+
+fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Convert(arguments) => convert::run(&arguments),
+        Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Completions { shell } => manual::completions(shell),
+        Command::Man { folder } => manual::pages(folder.as_deref()),
+    };
+    let outcome = result.unwrap_or_else(|error| {
+        eprintln!("error: {error:#}");
+        Outcome::Failed
+    });
+    ExitCode::from(outcome.code())
+}

@@ -23,6 +23,11 @@ impl Interval {
         self.end - self.start
     }
 
+    /// Whether nothing lies strictly between the ends (or an end is not a number).
+    pub fn is_empty(self) -> bool {
+        self.start.partial_cmp(&self.end) != Some(std::cmp::Ordering::Less)
+    }
+
     /// Whether both ends are finite.
     pub fn is_finite(self) -> bool {
         self.start.is_finite() && self.end.is_finite()

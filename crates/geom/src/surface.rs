@@ -1,33 +1,101 @@
 //! Surfaces in space.
 
+mod bounds;
+mod breakpoints;
+mod evaluate;
+mod exact;
+mod grid;
+mod normal;
+mod offset;
+mod revolve;
+mod singularities;
+mod transform;
+
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
-use crate::{Aabb, Curve, Frame, Interval, NurbsSurface};
+use crate::{Curve, Frame, Interval, NurbsSurface};
+
+pub(crate) use revolve::Meridian;
 
 /// A surface in space, parametrized as ISO 10303-42 §4.5 does (angles in radians).
+///
+/// ```
+/// use trimloop_geom::{DVec2, DVec3, Frame, Surface};
+/// let sphere = Surface::Sphere { frame: Frame::WORLD, radius: 2.0 };
+/// assert_eq!(sphere.point(DVec2::ZERO), DVec3::new(2.0, 0.0, 0.0));
+/// assert_eq!(sphere.normal(DVec2::ZERO), Some(DVec3::X));
+/// assert_eq!(sphere.project(DVec3::new(0.0, 0.0, 5.0), None).distance, 3.0);
+/// ```
 #[derive(Clone, Debug)]
 pub enum Surface {
     /// `origin + u x + v y`.
-    Plane { frame: Frame },
+    Plane {
+        /// Origin and axes.
+        frame: Frame,
+    },
     /// `origin + radius (cos u x + sin u y) + v z`.
-    Cylinder { frame: Frame, radius: f64 },
-    /// `origin + (radius + v tan half_angle) (cos u x + sin u y) + v z`.
-    Cone { frame: Frame, radius: f64, half_angle_rad: f64 },
+    Cylinder {
+        /// Origin and axes; z is the axis.
+        frame: Frame,
+        /// Radius.
+        radius: f64,
+    },
+    /// `origin + (radius + v tan half_angle) (cos u x + sin u y) + v z`. Both nappes: the radius may become
+    /// negative.
+    Cone {
+        /// Origin and axes; z is the axis.
+        frame: Frame,
+        /// Radius at v = 0.
+        radius: f64,
+        /// Angle between axis and generator; negative where the cone narrows towards +z.
+        half_angle_rad: f64,
+    },
     /// `origin + radius cos v (cos u x + sin u y) + radius sin v z`.
-    Sphere { frame: Frame, radius: f64 },
-    /// `origin + (major + minor cos v) (cos u x + sin u y) + minor sin v z`. Where `major < minor` (degenerate
-    /// torus) `v_range` holds the part of v that is used: apple or lemon.
-    Torus { frame: Frame, major: f64, minor: f64, v_range: Option<Interval> },
+    Sphere {
+        /// Centre and axes; z points to the pole at v = π/2.
+        frame: Frame,
+        /// Radius.
+        radius: f64,
+    },
+    /// `origin + (major + minor cos v) (cos u x + sin u y) + minor sin v z`.
+    Torus {
+        /// Centre and axes; z is the axis.
+        frame: Frame,
+        /// Radius of the circle of centres.
+        major: f64,
+        /// Radius of the tube.
+        minor: f64,
+        /// Where `major < minor` (degenerate torus): the part of v that is used, apple or lemon.
+        v_range: Option<Interval>,
+    },
     /// `profile(u) + v direction`; `direction` need not be a unit vector.
-    Extrusion { profile: Arc<Curve>, direction: DVec3 },
+    Extrusion {
+        /// The curve that is swept.
+        profile: Arc<Curve>,
+        /// What a unit of v adds.
+        direction: DVec3,
+    },
     /// `profile(v)` turned by the angle `u` about the unit `axis` through `origin`.
-    Revolution { profile: Arc<Curve>, origin: DVec3, axis: DVec3 },
+    Revolution {
+        /// The curve that is turned.
+        profile: Arc<Curve>,
+        /// A point of the axis.
+        origin: DVec3,
+        /// Unit vector along the axis.
+        axis: DVec3,
+    },
     /// Tensor product B-spline of any degree, rational or not.
     Nurbs(NurbsSurface),
     /// `basis(u, v) + distance * unit normal`.
-    Offset { basis: Arc<Surface>, distance: f64 },
+    Offset {
+        /// The surface that is offset.
+        basis: Arc<Surface>,
+        /// Signed distance along the basis' normal.
+        distance: f64,
+    },
 }
 
 /// A point of a surface and its derivatives there.
@@ -79,89 +147,47 @@ pub struct Singularity {
 }
 
 impl Surface {
-    /// The point at (u, v). Closed surfaces take any parameter and wrap it; others extrapolate or clamp.
-    pub fn point(&self, uv: DVec2) -> DVec3 {
-        let _ = uv;
-        todo!()
-    }
-
-    /// Point and first derivatives (the second are left zero); the fast path.
-    pub fn first_derivatives(&self, uv: DVec2) -> Derivatives {
-        let _ = uv;
-        todo!()
-    }
-
-    /// Point, first and second derivatives.
-    pub fn derivatives(&self, uv: DVec2) -> Derivatives {
-        let _ = uv;
-        todo!()
-    }
-
-    /// Unit normal `∂S/∂u x ∂S/∂v`; at singular points the limit from the inside of the domain. `None` where even
-    /// that vanishes.
-    pub fn normal(&self, uv: DVec2) -> Option<DVec3> {
-        let _ = uv;
-        todo!()
-    }
-
     /// The natural domain [u, v]: infinite for planes, cylinders' v, ...; one period for closed directions.
     pub fn domain(&self) -> [Interval; 2] {
-        todo!()
+        let turn = Interval::new(0.0, TAU);
+        match self {
+            Self::Plane { .. } => [Interval::INFINITE; 2],
+            Self::Cylinder { .. } | Self::Cone { .. } => [turn, Interval::INFINITE],
+            Self::Sphere { .. } => [turn, Interval::new(-FRAC_PI_2, FRAC_PI_2)],
+            Self::Torus { v_range, .. } => [turn, v_range.unwrap_or(turn)],
+            Self::Extrusion { profile, .. } => [profile.domain(), Interval::INFINITE],
+            Self::Revolution { profile, .. } => [turn, profile.domain()],
+            Self::Nurbs(nurbs) => nurbs.domain(),
+            Self::Offset { basis, .. } => basis.domain(),
+        }
     }
 
     /// Per direction [u, v] the period, where the surface closes on itself smoothly or not: 2π for angles, the
     /// domain's length for splines and swept curves whose two sides coincide.
     pub fn periods(&self) -> [Option<f64>; 2] {
-        todo!()
-    }
-
-    /// The isoparametric lines that are single points, inside or on the border of the domain.
-    pub fn singularities(&self) -> Vec<Singularity> {
-        todo!()
-    }
-
-    /// The parameters of the point of the surface nearest to `point`: closed form for elementary surfaces; for the
-    /// rest Newton from `hint`, checked, with a global search where it fails or where no hint is given. `uv` lies in
-    /// `domain()`; on a closed direction within half a period of the hint when one is given (so it may leave the domain).
-    pub fn project(&self, point: DVec3, hint: Option<DVec2>) -> SurfacePoint {
-        let _ = (point, hint);
-        todo!()
-    }
-
-    /// Points on the grid `us` x `vs`, row-major: index `i * vs.len() + j` is the point at (`us[i]`, `vs[j]`).
-    /// Basis values are shared along rows and columns.
-    pub fn grid(&self, us: &[f64], vs: &[f64]) -> Vec<DVec3> {
-        let _ = (us, vs);
-        todo!()
-    }
-
-    /// Sorted parameters in `range` (ends included) of one direction, between which the surface is smooth.
-    pub fn breakpoints(&self, direction: Direction, range: Interval) -> Vec<f64> {
-        let _ = (direction, range);
-        todo!()
-    }
-
-    /// A box that holds the surface over a finite `domain`.
-    pub fn bounds(&self, domain: [Interval; 2]) -> Aabb {
-        let _ = domain;
-        todo!()
-    }
-
-    /// The exact NURBS form over a finite `domain` (offsets: `None`).
-    pub fn to_nurbs(&self, domain: [Interval; 2]) -> Option<NurbsSurface> {
-        let _ = domain;
-        todo!()
-    }
-
-    /// The surface's image under a similarity (rotation, uniform scale, mirror); the parametrization keeps its shape.
-    /// Returns also whether the normal's side has flipped relative to the mapped normal (mirrors of elementary surfaces).
-    pub fn transformed(&self, map: &DAffine3) -> (Self, bool) {
-        let _ = map;
-        todo!()
+        match self {
+            Self::Plane { .. } => [None, None],
+            Self::Cylinder { .. } | Self::Cone { .. } | Self::Sphere { .. } => [Some(TAU), None],
+            Self::Torus { v_range, .. } => [Some(TAU), v_range.is_none().then_some(TAU)],
+            Self::Extrusion { profile, .. } => [profile.period(), None],
+            Self::Revolution { profile, .. } => [Some(TAU), profile.period()],
+            Self::Nurbs(nurbs) => nurbs.periods(),
+            Self::Offset { basis, .. } => basis.periods(),
+        }
     }
 
     /// `plane`, `cylinder`, `cone`, `sphere`, `torus`, `extrusion`, `revolution`, `nurbs`, `offset`.
     pub fn kind(&self) -> &'static str {
-        todo!()
+        match self {
+            Self::Plane { .. } => "plane",
+            Self::Cylinder { .. } => "cylinder",
+            Self::Cone { .. } => "cone",
+            Self::Sphere { .. } => "sphere",
+            Self::Torus { .. } => "torus",
+            Self::Extrusion { .. } => "extrusion",
+            Self::Revolution { .. } => "revolution",
+            Self::Nurbs(_) => "nurbs",
+            Self::Offset { .. } => "offset",
+        }
     }
 }

@@ -262,8 +262,8 @@ fn a_tube_bend_is_a_torus_between_two_circles() {
     };
     let (first, first_frame) = ring(&mut b, 0.0);
     let (second, second_frame) = ring(&mut b, PI / 2.0);
-    // `out x Z` points against the direction of travel: seen from outside the body, the first ring runs backwards.
-    b.face(torus(10.0, 3.0), true, &[&[(first, false)], &[(second, true)]]);
+    // Both circles run towards higher v, which leaves lower u on the left.
+    b.face(torus(10.0, 3.0), true, &[&[(first, true)], &[(second, false)]]);
     b.face(Surface::Plane { frame: first_frame }, true, &[&[(first, false)]]);
     b.face(Surface::Plane { frame: second_frame }, false, &[&[(second, true)]]);
     let mesh = b.mesh(true, 0.01);

@@ -1,0 +1,239 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+use trimloop_gltf::{GltfOptions, UpAxis};
+use trimloop_mesh::{LinearDeflection, MeshOptions};
+
+use crate::quantity;
+
+/// Converts STEP files to glTF: watertight, coloured, named, with the truth about every face.
+#[derive(Debug, Parser)]
+#[command(name = "trimloop", version, max_term_width = 100)]
+#[command(
+    after_help = "Exit codes: 0 all well; 1 written, but a face was lost (or approximated, with --strict); \
+2 nothing usable.\n`trimloop COMMAND --help` explains a command."
+)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Convert STEP files to glTF (.glb or .gltf)
+    #[command(after_help = CONVERT_EXAMPLES)]
+    Convert(ConvertArguments),
+    /// Show what is in STEP files: assembly tree, units, bodies, surfaces, colours
+    #[command(after_help = INSPECT_EXAMPLES)]
+    Inspect(InspectArguments),
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell to complete for
+        shell: Shell,
+    },
+    /// Print the manual page, or write all pages to a folder
+    Man {
+        /// Folder for trimloop.1, trimloop-convert.1, ... [default: print trimloop.1]
+        #[arg(value_name = "FOLDER")]
+        folder: Option<PathBuf>,
+    },
+}
+
+const CONVERT_EXAMPLES: &str = "\
+Examples:
+  trimloop convert bracket.step                          writes bracket.glb beside it
+  trimloop convert bracket.step -o web/bracket.gltf      writes bracket.gltf and bracket.bin
+  trimloop convert *.stp -o glb/ --report glb/           one .glb and one .json report each
+  trimloop convert gear.step --linear-deflection 0.02mm --angular-deflection 5deg
+  trimloop convert gear.step --strict --report -         report on standard output
+
+Exit codes:
+  0  all well
+  1  written, but a face was lost (with --strict also: only approximated)
+  2  nothing usable: bad usage, unreadable file, unwritable output; nothing is left behind
+  130  stopped (Ctrl-C)
+With several inputs, the worst of them.";
+
+const INSPECT_EXAMPLES: &str = "\
+Examples:
+  trimloop inspect gearbox.step
+  trimloop inspect gearbox.step --json | jq .surfaces";
+
+/// `trimloop convert`.
+#[derive(Args, Debug)]
+pub struct ConvertArguments {
+    /// STEP files (.step, .stp, .p21, also packed as .stpz or .stp.gz)
+    #[arg(value_name = "INPUT", required = true)]
+    pub inputs: Vec<PathBuf>,
+
+    /// Output file (.glb, or .gltf with its .bin) or folder [default: beside each input, as .glb]
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+
+    /// Number of threads, 0 for one per core
+    #[arg(short, long, value_name = "N", default_value_t = 0)]
+    pub jobs: usize,
+
+    /// Exit with 1 also when a face is only approximated: above the deflection, or by a fallback
+    #[arg(long)]
+    pub strict: bool,
+
+    /// Print errors only
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+
+    /// Print every diagnostic, and every face that is not exact
+    #[arg(short, long)]
+    pub verbose: bool,
+
+    /// Largest distance between a triangle and the exact surface: mm, um, cm, m, in, or % of a part's diagonal
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        default_value = "0.1%",
+        help_heading = "Tolerance",
+        value_parser = quantity::linear_deflection
+    )]
+    pub linear_deflection: LinearDeflection,
+
+    /// Largest angle between the exact normals at the ends of a triangle's side: deg, rad
+    #[arg(
+        long,
+        value_name = "ANGLE",
+        default_value = "20deg",
+        help_heading = "Tolerance",
+        value_parser = quantity::angular_deflection
+    )]
+    pub angular_deflection: f64,
+
+    /// Most triangles per part; faces that would need more are left above the deflection and reported
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 20_000_000,
+        help_heading = "Tolerance",
+        value_parser = clap::value_parser!(u32).range(1..)
+    )]
+    pub max_triangles: u32,
+
+    /// Axis that points up: y as glTF asks, z as most CAD files have it
+    #[arg(long, value_enum, default_value_t = Up::Y, help_heading = "glTF")]
+    pub up: Up,
+
+    /// Add the faces' edges as lines
+    #[arg(long, help_heading = "glTF")]
+    pub edges: bool,
+
+    /// Tell for each vertex which face it belongs to (_FEATURE_ID_0, an index into the mesh's
+    /// extras.face_entities)
+    #[arg(long, help_heading = "glTF")]
+    pub face_ids: bool,
+
+    /// Store positions and normals as integers (KHR_mesh_quantization)
+    #[arg(long, help_heading = "glTF")]
+    pub quantize: bool,
+
+    /// Compress the geometry (EXT_meshopt_compression)
+    #[arg(long, help_heading = "glTF")]
+    pub meshopt: bool,
+
+    /// Write a JSON report: a file, a folder or .jsonl for several inputs, - for standard output
+    #[arg(long, value_name = "PATH", help_heading = "Report")]
+    pub report: Option<PathBuf>,
+
+    /// List every face in the report
+    #[arg(long, requires = "report", help_heading = "Report")]
+    pub report_faces: bool,
+}
+
+/// The axis that points up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Up {
+    /// +Y.
+    Y,
+    /// +Z.
+    Z,
+}
+
+impl ConvertArguments {
+    /// What is asked of the mesh.
+    pub fn mesh_options(&self) -> MeshOptions {
+        MeshOptions {
+            linear_deflection: self.linear_deflection,
+            angular_deflection_rad: self.angular_deflection,
+            max_triangles: self.max_triangles as usize,
+        }
+    }
+
+    /// What is asked of the output.
+    pub fn gltf_options(&self) -> GltfOptions {
+        GltfOptions {
+            up: match self.up {
+                Up::Y => UpAxis::Y,
+                Up::Z => UpAxis::Z,
+            },
+            edges: self.edges,
+            face_ids: self.face_ids,
+            quantize: self.quantize,
+            meshopt: self.meshopt,
+        }
+    }
+}
+
+/// `trimloop inspect`.
+#[derive(Args, Debug)]
+pub struct InspectArguments {
+    /// STEP files (.step, .stp, .p21, also packed as .stpz or .stp.gz)
+    #[arg(value_name = "INPUT", required = true)]
+    pub inputs: Vec<PathBuf>,
+
+    /// Print JSON, one line per input
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{CommandFactory, Parser};
+    use trimloop_mesh::{LinearDeflection, MeshOptions};
+
+    use super::{Arguments, Command, ConvertArguments};
+
+    fn convert(line: &str) -> ConvertArguments {
+        let words = ["trimloop", "convert"].into_iter().chain(line.split_whitespace());
+        match Arguments::try_parse_from(words).expect("valid arguments").command {
+            Command::Convert(arguments) => arguments,
+            other => panic!("parsed as {other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn defaults_are_those_of_the_libraries() {
+        assert_eq!(convert("a.step").mesh_options(), MeshOptions::default());
+    }
+
+    #[test]
+    fn tolerances_take_units() {
+        let arguments = convert("a.step --linear-deflection 0.05mm --angular-deflection 5deg");
+        assert_eq!(arguments.linear_deflection, LinearDeflection::Absolute(0.05));
+        assert!((arguments.angular_deflection - 5f64.to_radians()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        for line in ["", "a.step --linear-deflection -1", "a.step --max-triangles 0", "a.step -q -v"] {
+            let words = ["trimloop", "convert"].into_iter().chain(line.split_whitespace());
+            assert!(Arguments::try_parse_from(words).is_err(), "{line:?} was accepted");
+        }
+    }
+}

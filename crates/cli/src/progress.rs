@@ -1,0 +1,49 @@
+//! A progress bar over the faces of a file, on a terminal only.
+
+use std::io::IsTerminal;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use trimloop_mesh::Monitor;
+
+use crate::interrupt;
+
+/// Counts finished faces, and passes on the wish to stop.
+pub struct Progress {
+    bar: Option<ProgressBar>,
+}
+
+impl Progress {
+    /// A bar for `faces` faces; none where nobody would see it.
+    pub fn new(faces: usize, quiet: bool) -> Self {
+        let seen = !quiet && std::io::stderr().is_terminal();
+        Self { bar: seen.then(|| bar(faces as u64)) }
+    }
+}
+
+fn bar(faces: u64) -> ProgressBar {
+    let bar = ProgressBar::new(faces);
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} faces, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+impl Monitor for Progress {
+    fn face_done(&self) {
+        if let Some(bar) = &self.bar {
+            bar.inc(1);
+        }
+    }
+
+    fn cancelled(&self) -> bool {
+        interrupt::requested()
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}

@@ -1,0 +1,329 @@
+//! Tensor product B-spline surfaces.
+
+use std::sync::{Arc, OnceLock};
+
+use glam::{DAffine3, DVec2, DVec3, DVec4};
+
+use super::basis::{Basis, Row, by_degree};
+use super::closure::{self, Sides};
+use super::control::{self, Control, lift_all, lower};
+use super::{NurbsError, knots};
+use crate::period::wrap;
+use crate::project::SampleGrid;
+use crate::{Aabb, Derivatives, Direction, Interval, Singularity};
+
+/// A tensor product B-spline surface of any degree, rational or not; cloning shares the data.
+///
+/// Along u the domain is `[knots[0][p], knots[0][rows]]`, along v likewise with the columns. A direction whose two
+/// sides coincide (within 1e-9 of the control net's size) counts as closed, and evaluation wraps its parameter into
+/// the domain; elsewhere it clamps.
+#[derive(Clone, Debug)]
+pub struct NurbsSurface(Arc<Data>);
+
+#[derive(Debug)]
+struct Data {
+    degrees: [usize; 2],
+    shape: [usize; 2],
+    points: Vec<DVec3>,
+    weights: Vec<f64>,
+    /// `(w x, w y, w z, w)`; empty when polynomial.
+    homogeneous: Vec<DVec4>,
+    knots: [Vec<f64>; 2],
+    domain: [Interval; 2],
+    size: f64,
+    sides: Sides,
+    samples: OnceLock<SampleGrid>,
+}
+
+impl NurbsSurface {
+    /// A surface with `rows` x `columns` control points, row-major, rows running over u, columns over v:
+    /// `points[i * columns + j]`; full knot vectors. `weights` is empty for a polynomial surface; equal weights are
+    /// dropped.
+    ///
+    /// # Errors
+    /// The text names what does not fit; see [`crate::NurbsCurve::new`].
+    pub fn new(
+        degrees: [usize; 2],
+        rows: usize,
+        columns: usize,
+        points: Vec<DVec3>,
+        mut weights: Vec<f64>,
+        mut knots: [Vec<f64>; 2],
+    ) -> Result<Self, NurbsError> {
+        if rows.checked_mul(columns) != Some(points.len()) {
+            return Err(NurbsError(format!(
+                "{} control points do not fill {rows} rows of {columns}",
+                points.len()
+            )));
+        }
+        let domain = [
+            knots::check(" along u", degrees[0], rows, &mut knots[0])?,
+            knots::check(" along v", degrees[1], columns, &mut knots[1])?,
+        ];
+        control::check(&points, &mut weights)?;
+        let homogeneous = if weights.is_empty() { Vec::new() } else { lift_all(&points, &weights) };
+        let size = Aabb::from_points(points.iter().copied()).diagonal();
+        let shape = [rows, columns];
+        let (sides, samples) = (Sides::default(), OnceLock::new());
+        let mut surface =
+            Data { degrees, shape, points, weights, homogeneous, knots, domain, size, sides, samples };
+        surface.sides = closure::sides(&surface.view());
+        Ok(Self(Arc::new(surface)))
+    }
+
+    /// The surface of homogeneous control points `(w x, w y, w z, w)`, row-major.
+    ///
+    /// # Errors
+    /// As [`NurbsSurface::new`].
+    pub fn from_homogeneous(
+        degrees: [usize; 2],
+        rows: usize,
+        columns: usize,
+        points: &[DVec4],
+        knots: [Vec<f64>; 2],
+    ) -> Result<Self, NurbsError> {
+        let (points, weights) = points.iter().map(|&p| lower(p)).unzip();
+        Self::new(degrees, rows, columns, points, weights, knots)
+    }
+
+    /// Degrees [u, v].
+    pub fn degrees(&self) -> [usize; 2] {
+        self.0.degrees
+    }
+
+    /// [rows, columns]: control points along u, along v.
+    pub fn shape(&self) -> [usize; 2] {
+        self.0.shape
+    }
+
+    /// Control points, row-major (rows run over u).
+    pub fn points(&self) -> &[DVec3] {
+        &self.0.points
+    }
+
+    /// Weights in the same order, empty when polynomial.
+    pub fn weights(&self) -> &[f64] {
+        &self.0.weights
+    }
+
+    /// Full knot vectors [u, v].
+    pub fn knots(&self) -> [&[f64]; 2] {
+        [&self.0.knots[0], &self.0.knots[1]]
+    }
+
+    /// Control points as `(w x, w y, w z, w)`, row-major, with weight 1 when polynomial.
+    pub fn homogeneous(&self) -> Vec<DVec4> {
+        lift_all(&self.0.points, &self.0.weights)
+    }
+
+    /// The domain [u, v].
+    pub fn domain(&self) -> [Interval; 2] {
+        self.0.domain
+    }
+
+    /// Per direction the domain's length, where its two sides coincide.
+    pub fn periods(&self) -> [Option<f64>; 2] {
+        [0, 1].map(|d| self.0.sides.closed[d].then(|| self.0.domain[d].length()))
+    }
+
+    /// The sides of the domain that are single points.
+    pub fn singularities(&self) -> Vec<Singularity> {
+        let at = |direction: usize, upper: bool| {
+            let interval = self.0.domain[direction];
+            if upper { interval.end } else { interval.start }
+        };
+        let mut found = Vec::new();
+        for (d, constant) in [(0, Direction::U), (1, Direction::V)] {
+            for upper in [false, true] {
+                if let Some(point) = self.0.sides.degenerate[d][usize::from(upper)] {
+                    found.push(Singularity { constant, at: at(d, upper), point });
+                }
+            }
+        }
+        found
+    }
+
+    /// The diagonal of the control net's box.
+    pub fn size(&self) -> f64 {
+        self.0.size
+    }
+
+    /// The distinct knots of one direction's domain, both ends included.
+    pub fn distinct_knots(&self, direction: Direction) -> Vec<f64> {
+        let d = direction as usize;
+        knots::distinct(&self.0.knots[d], self.0.domain[d])
+    }
+
+    /// The point at (u, v).
+    pub fn point(&self, uv: DVec2) -> DVec3 {
+        self.0.view().evaluate::<0>(self.settle(uv))[0]
+    }
+
+    /// Point and first derivatives at (u, v); the second ones are left zero.
+    pub fn first_derivatives(&self, uv: DVec2) -> Derivatives {
+        named(self.0.view().evaluate::<1>(self.settle(uv)))
+    }
+
+    /// Point, first and second derivatives at (u, v).
+    pub fn derivatives(&self, uv: DVec2) -> Derivatives {
+        named(self.0.view().evaluate::<2>(self.settle(uv)))
+    }
+
+    /// The image under any affine map.
+    ///
+    /// # Errors
+    /// When the map sends a control point beyond what f64 can hold.
+    pub fn transformed(&self, map: &DAffine3) -> Result<Self, NurbsError> {
+        let points = self.0.points.iter().map(|&p| map.transform_point3(p)).collect();
+        let [rows, columns] = self.0.shape;
+        Self::new(self.0.degrees, rows, columns, points, self.0.weights.clone(), self.0.knots.clone())
+    }
+
+    /// Points on the grid `us` x `vs`, row-major over `us`. The basis is evaluated once per row and once per column.
+    pub fn grid(&self, us: &[f64], vs: &[f64]) -> Vec<DVec3> {
+        let data = &*self.0;
+        by_degree!(data.degrees[0].max(data.degrees[1]), R => {
+            if data.homogeneous.is_empty() {
+                self.contract_grid::<_, R>(&data.points, us, vs, |p| p)
+            } else {
+                self.contract_grid::<_, R>(&data.homogeneous, us, vs, |p: DVec4| p.truncate() / p.w)
+            }
+        })
+    }
+
+    fn contract_grid<P: Control, R: Row>(
+        &self,
+        points: &[P],
+        us: &[f64],
+        vs: &[f64],
+        finish: impl Fn(P) -> DVec3,
+    ) -> Vec<DVec3> {
+        let data = &*self.0;
+        let [pu, pv] = data.degrees;
+        let [rows, columns] = data.shape;
+        let basis = |d: usize, degree, count, t| {
+            Basis::<R>::new::<0>(&data.knots[d], degree, count, self.settle_along(d, t))
+        };
+        let across: Vec<Basis<R>> = vs.iter().map(|&v| basis(1, pv, columns, v)).collect();
+        let mut grid = Vec::with_capacity(us.len() * vs.len());
+        let mut line = vec![P::ZERO; columns];
+        for &u in us {
+            let along = basis(0, pu, rows, u);
+            line.fill(P::ZERO);
+            for (i, &n) in along.rows[0].as_ref()[..=pu].iter().enumerate() {
+                let row = &points[(along.first + i) * columns..][..columns];
+                line.iter_mut().zip(row).for_each(|(sum, &p)| *sum += p * n);
+            }
+            grid.extend(across.iter().map(|b| {
+                let mut sum = P::ZERO;
+                let line = &line[b.first..=b.first + pv];
+                line.iter().zip(b.rows[0].as_ref()).for_each(|(&p, &n)| sum += p * n);
+                finish(sum)
+            }));
+        }
+        grid
+    }
+
+    /// Points over the surface from which a global search starts.
+    pub(crate) fn samples(&self) -> &SampleGrid {
+        self.0.samples.get_or_init(|| SampleGrid::of_nurbs(self))
+    }
+
+    #[inline]
+    fn settle_along(&self, d: usize, t: f64) -> f64 {
+        if self.0.sides.closed[d] { wrap(t, self.0.domain[d]) } else { self.0.domain[d].clamp(t) }
+    }
+
+    #[inline]
+    fn settle(&self, uv: DVec2) -> DVec2 {
+        DVec2::new(self.settle_along(0, uv.x), self.settle_along(1, uv.y))
+    }
+}
+
+fn named([point, du, dv, duu, duv, dvv]: [DVec3; 6]) -> Derivatives {
+    Derivatives { point, du, dv, duu, duv, dvv }
+}
+
+impl Data {
+    fn view(&self) -> View<'_> {
+        View {
+            degrees: self.degrees,
+            shape: self.shape,
+            points: &self.points,
+            homogeneous: &self.homogeneous,
+            knots: [&self.knots[0], &self.knots[1]],
+            domain: self.domain,
+            size: self.size,
+        }
+    }
+}
+
+/// What evaluation reads.
+pub(super) struct View<'a> {
+    pub degrees: [usize; 2],
+    shape: [usize; 2],
+    points: &'a [DVec3],
+    homogeneous: &'a [DVec4],
+    pub knots: [&'a [f64]; 2],
+    pub domain: [Interval; 2],
+    pub size: f64,
+}
+
+impl View<'_> {
+    pub fn is_rational(&self) -> bool {
+        !self.homogeneous.is_empty()
+    }
+
+    /// S, Su, Sv, Suu, Suv, Svv up to `ORDER` at parameters inside the domain (Piegl & Tiller A3.6, A4.4).
+    #[inline]
+    pub fn evaluate<const ORDER: usize>(&self, uv: DVec2) -> [DVec3; 6] {
+        by_degree!(self.degrees[0].max(self.degrees[1]), R => {
+            let [pu, pv] = self.degrees;
+            let bu = Basis::<R>::new::<ORDER>(self.knots[0], pu, self.shape[0], uv.x);
+            let bv = Basis::<R>::new::<ORDER>(self.knots[1], pv, self.shape[1], uv.y);
+            if self.homogeneous.is_empty() {
+                contract::<_, _, ORDER>(self.points, self.shape[1], &bu, &bv, self.degrees)
+            } else {
+                let sums = contract::<_, _, ORDER>(self.homogeneous, self.shape[1], &bu, &bv, self.degrees);
+                control::project_surface::<ORDER>(sums)
+            }
+        })
+    }
+}
+
+#[inline]
+fn contract<P: Control, R: Row, const ORDER: usize>(
+    points: &[P],
+    columns: usize,
+    bu: &Basis<R>,
+    bv: &Basis<R>,
+    [pu, pv]: [usize; 2],
+) -> [P; 6] {
+    let [u0, u1, u2] = bu.rows.each_ref().map(|r| &r.as_ref()[..=pu]);
+    let [v0, v1, v2] = bv.rows.each_ref().map(|r| &r.as_ref()[..=pv]);
+    let mut s = [P::ZERO; 6];
+    for i in 0..=pu {
+        let row = &points[(bu.first + i) * columns + bv.first..][..=pv];
+        let [mut a0, mut a1, mut a2] = [P::ZERO; 3];
+        for (j, &p) in row.iter().enumerate() {
+            a0 += p * v0[j];
+            if ORDER >= 1 {
+                a1 += p * v1[j];
+            }
+            if ORDER >= 2 {
+                a2 += p * v2[j];
+            }
+        }
+        s[0] += a0 * u0[i];
+        if ORDER >= 1 {
+            s[1] += a0 * u1[i];
+            s[2] += a1 * u0[i];
+        }
+        if ORDER >= 2 {
+            s[3] += a0 * u2[i];
+            s[4] += a1 * u1[i];
+            s[5] += a2 * u0[i];
+        }
+    }
+    s
+}

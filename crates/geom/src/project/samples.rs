@@ -1,0 +1,180 @@
+//! A grid of surface points from which global searches start.
+
+use glam::{DVec2, DVec3};
+
+use crate::nurbs::sample_parameters;
+use crate::{Aabb, Direction, NurbsSurface};
+
+/// Points over a surface's domain, with boxes around blocks of them.
+#[derive(Clone, Debug)]
+pub(crate) struct SampleGrid {
+    us: Vec<f64>,
+    vs: Vec<f64>,
+    /// Row-major over `us`.
+    points: Vec<DVec3>,
+    /// Parameters among `us` and `vs` across which the tangent may jump.
+    kinks: [Vec<f64>; 2],
+    /// How far from each sample the surface goes before another one is nearer, about.
+    radii: Vec<f64>,
+    /// The largest radius of each block.
+    reach: Vec<f64>,
+    /// The boxes of `BLOCK` x `BLOCK` points, row-major.
+    boxes: Vec<Aabb>,
+}
+
+/// A sampled local minimum of the distance.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start {
+    pub distance: f64,
+    pub uv: DVec2,
+    pub radius: f64,
+}
+
+const BLOCK: usize = 8;
+/// How many samples a surface may have.
+const CAP: usize = 1 << 16;
+/// How many local minima a search starts from.
+pub(super) const STARTS: usize = 8;
+
+impl SampleGrid {
+    /// A few points per knot span of a spline surface.
+    pub fn of_nurbs(surface: &NurbsSurface) -> Self {
+        let spans = [Direction::U, Direction::V].map(|d| surface.distinct_knots(d));
+        let mut steps = surface.degrees().map(|degree| (degree + 1).clamp(3, 8));
+        let count = |steps: [usize; 2]| (spans[0].len() * steps[0]).saturating_mul(spans[1].len() * steps[1]);
+        while count(steps) > CAP && steps != [1, 1] {
+            steps = steps.map(|s| (s - 1).max(1));
+        }
+        let mut caps = [usize::MAX; 2];
+        if count(steps) > CAP {
+            let shrink = (count(steps) as f64 / CAP as f64).sqrt();
+            caps = [0, 1].map(|d| ((spans[d].len() as f64 / shrink) as usize).max(2));
+        }
+        let [us, vs] = [0, 1].map(|d| sample_parameters(&spans[d], steps[d], caps[d]));
+        let points = surface.grid(&us, &vs);
+        let closed = surface.periods().map(|p| p.is_some());
+        let kinks = [0, 1].map(|d| {
+            let mut found = kinks(surface.knots()[d], surface.degrees()[d]);
+            let domain = surface.domain()[d];
+            found.retain(|&k| closed[d] || (domain.start < k && k < domain.end));
+            found
+        });
+        Self { kinks, ..Self::new(us, vs, points) }
+    }
+
+    /// The grid of `points`, row-major over `us`.
+    pub fn new(us: Vec<f64>, vs: Vec<f64>, points: Vec<DVec3>) -> Self {
+        let mut grid =
+            Self { us, vs, points, kinks: Default::default(), radii: vec![], reach: vec![], boxes: vec![] };
+        let blocks = grid.us.len().div_ceil(BLOCK) * grid.blocks_across();
+        grid.boxes = vec![Aabb::EMPTY; blocks];
+        grid.reach = vec![0.0; blocks];
+        for index in 0..grid.points.len() {
+            let point = grid.points[index];
+            let spread = grid.neighbours(index).map(|k| grid.points[k].distance(point)).fold(0.0, f64::max);
+            let block = grid.block_of(index);
+            grid.radii.push(0.75 * spread);
+            grid.boxes[block] = grid.boxes[block].with(point);
+            grid.reach[block] = grid.reach[block].max(0.75 * spread);
+        }
+        grid
+    }
+
+    fn blocks_across(&self) -> usize {
+        self.vs.len().div_ceil(BLOCK)
+    }
+
+    fn block_of(&self, index: usize) -> usize {
+        let (i, j) = (index / self.vs.len(), index % self.vs.len());
+        i / BLOCK * self.blocks_across() + j / BLOCK
+    }
+
+    fn block(&self, block: usize) -> impl Iterator<Item = usize> {
+        let (row, column) = (block / self.blocks_across(), block % self.blocks_across());
+        let columns = self.vs.len();
+        let across = column * BLOCK..(column * BLOCK + BLOCK).min(columns);
+        let rows = row * BLOCK..(row * BLOCK + BLOCK).min(self.us.len());
+        rows.flat_map(move |i| across.clone().map(move |j| i * columns + j))
+    }
+
+    /// The sample itself and those around it, up to nine in all.
+    fn neighbours(&self, index: usize) -> impl Iterator<Item = usize> {
+        let columns = self.vs.len();
+        let (i, j) = (index / columns, index % columns);
+        let rows = i.saturating_sub(1)..=(i + 1).min(self.us.len() - 1);
+        let across = j.saturating_sub(1)..=(j + 1).min(columns - 1);
+        rows.flat_map(move |k| across.clone().map(move |l| k * columns + l))
+    }
+
+    /// The best few samples that are no further than their eight neighbours and near which the surface may come nearer
+    /// than `bound`, best first.
+    pub fn local_minima(&self, target: DVec3, mut bound: f64) -> [Option<Start>; STARTS] {
+        let mut best = [None; STARTS];
+        for (block, bounds) in self.boxes.iter().enumerate() {
+            let away = target.clamp(bounds.min, bounds.max).distance(target);
+            if away - self.reach[block] >= bound {
+                continue;
+            }
+            for index in self.block(block) {
+                let distance = self.points[index].distance(target);
+                if distance - self.radii[index] < bound && self.is_minimum(target, index) {
+                    let uv = DVec2::new(self.us[index / self.vs.len()], self.vs[index % self.vs.len()]);
+                    keep(&mut best, Start { distance, uv, radius: self.radii[index] });
+                    bound = bound.min(distance);
+                }
+            }
+        }
+        best
+    }
+
+    fn is_minimum(&self, target: DVec3, index: usize) -> bool {
+        let here = self.points[index].distance_squared(target);
+        self.neighbours(index).all(|k| here <= self.points[k].distance_squared(target))
+    }
+
+    /// Whether `uv` lies in one of the cells around the sample `start`, none of which ends in a crease there.
+    pub fn is_beside(&self, start: &Start, uv: DVec2) -> bool {
+        let near = |t: f64, at: f64, parameters: &[f64], kinks: &[f64]| {
+            let i = parameters.partition_point(|&x| x < at);
+            let (low, high) = (i.saturating_sub(1), (i + 1).min(parameters.len() - 1));
+            parameters[low] <= t && t <= parameters[high] && !kinks.contains(&at)
+        };
+        near(uv.x, start.uv.x, &self.us, &self.kinks[0]) && near(uv.y, start.uv.y, &self.vs, &self.kinks[1])
+    }
+
+    /// Where to descend from for a sample: the sample itself, or, on a crease, the middles of the ways to its
+    /// neighbours on either side.
+    pub fn approaches(&self, uv: DVec2) -> Vec<DVec2> {
+        let along = |t: f64, kinks: &[f64], parameters: &[f64]| match kinks.contains(&t) {
+            false => vec![t],
+            true => {
+                let i = parameters.partition_point(|&x| x < t);
+                let sides = [i.saturating_sub(1), (i + 1).min(parameters.len() - 1)];
+                sides.map(|k| 0.5 * (t + parameters[k])).to_vec()
+            }
+        };
+        let us = along(uv.x, &self.kinks[0], &self.us);
+        let vs = along(uv.y, &self.kinks[1], &self.vs);
+        us.iter().flat_map(|&u| vs.iter().map(move |&v| DVec2::new(u, v))).collect()
+    }
+}
+
+/// The knots that come `degree` times or more often.
+fn kinks(knots: &[f64], degree: usize) -> Vec<f64> {
+    let mut kinks: Vec<f64> = knots.windows(degree).filter(|w| w[0] == w[degree - 1]).map(|w| w[0]).collect();
+    kinks.dedup();
+    kinks
+}
+
+fn keep(best: &mut [Option<Start>; STARTS], mut start: Start) {
+    for slot in best {
+        match slot {
+            Some(kept) if kept.distance <= start.distance => {}
+            Some(kept) => std::mem::swap(kept, &mut start),
+            None => {
+                *slot = Some(start);
+                return;
+            }
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! The nearest point of a surface.
+
+use std::borrow::Cow;
+
+use glam::{DVec2, DVec3};
+
+use super::surface_search::SurfaceSearch;
+use super::{SampleGrid, elementary, swept};
+use crate::period::{near, wrap};
+use crate::{Direction, Interval, Surface, SurfacePoint};
+
+impl Surface {
+    /// The parameters of the point of the surface nearest to `point`: closed form for elementary surfaces; for the
+    /// rest Newton from `hint`, checked, with a global search where it fails or where no hint is given. `uv` lies in
+    /// `domain()`; on a closed direction within half a period of the hint when one is given (so it may leave the domain).
+    ///
+    /// Where a whole line of parameters gives the same point (a pole, an apex, a point on the axis of a cylinder), the
+    /// hint's are kept.
+    pub fn project(&self, point: DVec3, hint: Option<DVec2>) -> SurfacePoint {
+        let hint = hint.filter(|h| h.is_finite());
+        let uv = match self {
+            Self::Extrusion { profile, direction } => {
+                swept::project_extrusion(profile, *direction, point, hint)
+            }
+            Self::Revolution { profile, origin, axis } => {
+                swept::project_revolution(profile, *origin, *axis, point, hint)
+            }
+            Self::Nurbs(nurbs) => self.search(point, hint, || Cow::Borrowed(nurbs.samples())),
+            Self::Offset { basis, .. } => self.project_offset(basis, point, hint),
+            _ => elementary::project(self, point, hint).unwrap_or_default(),
+        };
+        self.foot(uv, point)
+    }
+
+    fn foot(&self, uv: DVec2, target: DVec3) -> SurfacePoint {
+        let point = self.point(uv);
+        SurfacePoint { uv, point, distance: point.distance(target) }
+    }
+
+    fn search<'a>(
+        &'a self,
+        point: DVec3,
+        hint: Option<DVec2>,
+        samples: impl Fn() -> Cow<'a, SampleGrid>,
+    ) -> DVec2 {
+        let search = SurfaceSearch::new(self);
+        self.settle(search.nearest(point, hint, samples).uv, hint)
+    }
+
+    /// The feet on an offset and on its basis share their parameters, if not always the same one is nearest: start
+    /// from the basis' foot, and search where that is not proper.
+    fn project_offset(&self, basis: &Self, point: DVec3, hint: Option<DVec2>) -> DVec2 {
+        let search = SurfaceSearch::new(self);
+        let foot = search.descend(point, basis.project(point, hint).uv);
+        if foot.proper {
+            return self.settle(foot.uv, hint);
+        }
+        let other = search.nearest(point, hint, || Cow::Owned(self.fresh_samples(foot.uv)));
+        self.settle(if other.distance2 < foot.distance2 { other.uv } else { foot.uv }, hint)
+    }
+
+    fn settle(&self, uv: DVec2, hint: Option<DVec2>) -> DVec2 {
+        let (domain, periods) = (self.domain(), self.periods());
+        let along = |d: usize| match (periods[d], hint) {
+            (Some(period), Some(hint)) => near(uv[d], hint[d], period),
+            (Some(_), None) => wrap(uv[d], domain[d]),
+            (None, _) => uv[d],
+        };
+        DVec2::new(along(0), along(1))
+    }
+
+    /// A modest grid over the domain, or around `center` where it is infinite.
+    fn fresh_samples(&self, center: DVec2) -> SampleGrid {
+        let domain = self.domain();
+        let parameters = |d: usize, direction: Direction| {
+            let range = if domain[d].is_finite() {
+                domain[d]
+            } else {
+                Interval::new(domain[d].clamp(center[d] - 10.0), domain[d].clamp(center[d] + 10.0))
+            };
+            let breakpoints = self.breakpoints(direction, range);
+            crate::nurbs::sample_parameters(&breakpoints, 24_usize.div_ceil(breakpoints.len()), 64)
+        };
+        let (us, vs) = (parameters(0, Direction::U), parameters(1, Direction::V));
+        let points = self.grid(&us, &vs);
+        SampleGrid::new(us, vs, points)
+    }
+}

@@ -1,0 +1,251 @@
+//! The nearest point on any surface that can be evaluated: safeguarded Newton steps, and a global search over samples.
+
+use std::borrow::Cow;
+
+use glam::{DVec2, DVec3};
+
+use super::SampleGrid;
+use crate::period::wrap;
+use crate::{Derivatives, Direction, Interval, Surface};
+
+/// A surface, and where its parameters may go.
+pub(super) struct SurfaceSearch<'a> {
+    surface: &'a Surface,
+    /// Infinite where the surface is closed (evaluation wraps then).
+    limits: [Interval; 2],
+    /// The longest steps.
+    reach: DVec2,
+}
+
+/// Where a descent ended.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Foot {
+    pub uv: DVec2,
+    pub distance2: f64,
+    /// Whether the way to the target is square to the surface there, or leads out of the domain.
+    pub proper: bool,
+}
+
+const STEPS: usize = 60;
+
+impl<'a> SurfaceSearch<'a> {
+    pub fn new(surface: &'a Surface) -> Self {
+        let (domain, periods) = (surface.domain(), surface.periods());
+        let limits = [0, 1].map(|d| if periods[d].is_some() { Interval::INFINITE } else { domain[d] });
+        let reach = domain.map(|d| if d.is_finite() { 0.5 * d.length() } else { f64::INFINITY });
+        Self { surface, limits, reach: DVec2::from(reach) }
+    }
+
+    /// The local solution from the hint when it is proper and no part of the surface, judged by its samples, can be
+    /// nearer; else the global one.
+    pub fn nearest<'s>(
+        &self,
+        target: DVec3,
+        hint: Option<DVec2>,
+        samples: impl Fn() -> Cow<'s, SampleGrid>,
+    ) -> Foot {
+        let nothing = Foot { uv: DVec2::ZERO, distance2: f64::INFINITY, proper: false };
+        let hinted = hint.map(|hint| self.descend(target, hint)).filter(|foot| foot.proper);
+        let best = hinted.unwrap_or(nothing);
+        if best.distance2 <= 1e-20 * target.length_squared() {
+            return best;
+        }
+        let found = self.improve(target, best, &samples());
+        // A hint's foot that is still the best has come from beside a pole as well as from anywhere else.
+        if hinted.is_some_and(|h| h.distance2 == found.distance2) {
+            found
+        } else {
+            self.around_pole(target, found)
+        }
+    }
+
+    /// The best of a foot and of the descents from the sampled minima that may lead nearer.
+    fn improve(&self, target: DVec3, mut best: Foot, samples: &SampleGrid) -> Foot {
+        for start in samples.local_minima(target, best.distance2.sqrt()).iter().flatten() {
+            let known = best.proper && samples.is_beside(start, self.inside(best.uv));
+            if known || start.distance - start.radius >= best.distance2.sqrt() {
+                continue;
+            }
+            if start.distance * start.distance < best.distance2 {
+                best = Foot { uv: start.uv, distance2: start.distance * start.distance, proper: false };
+            }
+            for from in samples.approaches(start.uv) {
+                let foot = self.descend(target, from);
+                if foot.distance2 < best.distance2 * (1.0 - 1e-12)
+                    || (foot.proper && foot.distance2 <= best.distance2)
+                {
+                    best = foot;
+                }
+            }
+        }
+        best
+    }
+
+    /// Parameters of a closed direction brought into the domain.
+    fn inside(&self, uv: DVec2) -> DVec2 {
+        let domain = self.surface.domain();
+        let along = |d: usize| if self.limits[d] == domain[d] { uv[d] } else { wrap(uv[d], domain[d]) };
+        DVec2::new(along(0), along(1))
+    }
+
+    /// From a pole every direction must be tried: there the distance has no gradient along the degenerate side.
+    fn around_pole(&self, target: DVec3, best: Foot) -> Foot {
+        let domain = self.surface.domain();
+        let mut result = best;
+        for pole in self.surface.singularities() {
+            let (d, other) = if pole.constant == Direction::U { (0, 1) } else { (1, 0) };
+            let length = domain[d].length();
+            if (best.uv[d] - pole.at).abs() > 1e-3 * length || !domain[other].is_finite() {
+                continue;
+            }
+            let inwards = if pole.at > domain[d].at(0.5) { -1e-3 } else { 1e-3 };
+            for share in 0..8 {
+                let mut uv = DVec2::ZERO;
+                uv[d] = pole.at + inwards * length;
+                uv[other] = domain[other].at((f64::from(share) + 0.5) / 8.0);
+                let foot = self.descend(target, uv);
+                if foot.distance2 < result.distance2 {
+                    result = foot;
+                }
+            }
+        }
+        result
+    }
+
+    /// Newton steps on the squared distance (Gauss-Newton where it is not convex), each shortened until the distance
+    /// does not grow; parameters at a limit stay there while the target lies beyond.
+    pub fn descend(&self, target: DVec3, start: DVec2) -> Foot {
+        let mut uv = self.clamp(start);
+        let mut at = self.surface.derivatives(uv);
+        let scale = at.point.length() + target.length();
+        for _ in 0..STEPS {
+            let gradient = Gradient::new(&at, target, uv, &self.limits);
+            if gradient.free == [false, false] {
+                break;
+            }
+            let moved = self
+                .shorten(target, uv, &at, gradient.newton(), scale)
+                .or_else(|| self.shorten(target, uv, &at, gradient.downhill(), scale));
+            let Some((next, value, settled)) = moved else { break };
+            uv = next;
+            at = value;
+            if settled {
+                break;
+            }
+        }
+        let gradient = Gradient::new(&at, target, uv, &self.limits);
+        let residual = at.point.distance(target);
+        Foot { uv, distance2: residual * residual, proper: gradient.vanishes(residual, scale) }
+    }
+
+    /// The step, halved until the distance does not grow (beyond rounding), and whether it was the last one needed.
+    /// `None` where no step helps.
+    fn shorten(
+        &self,
+        target: DVec3,
+        uv: DVec2,
+        at: &Derivatives,
+        step: DVec2,
+        scale: f64,
+    ) -> Option<(DVec2, Derivatives, bool)> {
+        let before = at.point.distance_squared(target);
+        let mut step = step.clamp(-self.reach, self.reach);
+        for _ in 0..24 {
+            let next = self.clamp(uv + step);
+            let change = next - uv;
+            let travel = change.x.abs() * at.du.length() + change.y.abs() * at.dv.length();
+            if travel <= 1e-16 * scale || travel.is_nan() {
+                return None;
+            }
+            let value = self.surface.derivatives(next);
+            if value.point.distance_squared(target) <= before * (1.0 + 1e-14) + 1e-31 * scale * scale {
+                return Some((next, value, travel <= 1e-13 * scale));
+            }
+            step *= 0.5;
+        }
+        None
+    }
+
+    fn clamp(&self, uv: DVec2) -> DVec2 {
+        DVec2::new(self.limits[0].clamp(uv.x), self.limits[1].clamp(uv.y))
+    }
+}
+
+/// Gradient and second-order data of half the squared distance at one (u, v).
+struct Gradient {
+    slope: DVec2,
+    /// Su·Su, Su·Sv, Sv·Sv.
+    metric: [f64; 3],
+    /// The same with the curvature terms of the residual.
+    hessian: [f64; 3],
+    /// Whether the parameter may move: not at a limit that it is pushed against.
+    free: [bool; 2],
+}
+
+impl Gradient {
+    fn new(s: &Derivatives, target: DVec3, uv: DVec2, limits: &[Interval; 2]) -> Self {
+        let residual = s.point - target;
+        let slope = DVec2::new(residual.dot(s.du), residual.dot(s.dv));
+        let metric = [s.du.length_squared(), s.du.dot(s.dv), s.dv.length_squared()];
+        let bend = [residual.dot(s.duu), residual.dot(s.duv), residual.dot(s.dvv)];
+        let hessian = [0, 1, 2].map(|i| metric[i] + bend[i]);
+        let pushed = |d: usize| {
+            (uv[d] <= limits[d].start && slope[d] > 0.0) || (uv[d] >= limits[d].end && slope[d] < 0.0)
+        };
+        Self { slope, metric, hessian, free: [!pushed(0), !pushed(1)] }
+    }
+
+    /// The Newton step, or the Gauss-Newton step where the Hessian is not safely positive.
+    fn newton(&self) -> DVec2 {
+        match self.free {
+            [true, true] => {
+                let [a, b, c] = self.hessian;
+                let safe = a > 1e-6 * self.metric[0]
+                    && c > 1e-6 * self.metric[2]
+                    && a * c - b * b > 1e-9 * self.metric[0] * self.metric[2];
+                if safe && a * c > 0.0 { solve([a, b, c], self.slope) } else { self.gauss_newton() }
+            }
+            [true, false] => DVec2::new(self.along(0), 0.0),
+            [false, true] => DVec2::new(0.0, self.along(1)),
+            [false, false] => DVec2::ZERO,
+        }
+    }
+
+    fn gauss_newton(&self) -> DVec2 {
+        let [a, b, c] = self.metric;
+        // Nearly parallel or vanishing tangents: damped towards the gradient's own direction.
+        let damping = if a * c - b * b > 1e-10 * a * c { 0.0 } else { 1e-4 };
+        let (a, c) = (a * (1.0 + damping), c * (1.0 + damping));
+        if a * c - b * b > 0.0 { solve([a, b, c], self.slope) } else { self.downhill() }
+    }
+
+    /// Each free parameter by itself, half as far as if it were alone.
+    fn downhill(&self) -> DVec2 {
+        let one =
+            |d: usize| if self.free[d] { 0.5 * quotient(-self.slope[d], self.metric[2 * d]) } else { 0.0 };
+        DVec2::new(one(0), one(1))
+    }
+
+    fn along(&self, d: usize) -> f64 {
+        let (hessian, metric) = (self.hessian[2 * d], self.metric[2 * d]);
+        quotient(-self.slope[d], if hessian > 1e-6 * metric { hessian } else { metric })
+    }
+
+    /// Whether the residual is square to the surface along the free parameters.
+    fn vanishes(&self, residual: f64, scale: f64) -> bool {
+        let flat =
+            |d: usize| !self.free[d] || self.slope[d].abs() <= 1e-7 * residual * self.metric[2 * d].sqrt();
+        residual <= 1e-12 * scale || (flat(0) && flat(1))
+    }
+}
+
+/// The step that brings `slope` to zero, for the symmetric matrix [a b; b c].
+fn solve([a, b, c]: [f64; 3], slope: DVec2) -> DVec2 {
+    let determinant = a * c - b * b;
+    DVec2::new(b * slope.y - c * slope.x, b * slope.x - a * slope.y) / determinant
+}
+
+fn quotient(a: f64, b: f64) -> f64 {
+    let q = a / b;
+    if q.is_finite() { q } else { 0.0 }
+}

@@ -1,0 +1,102 @@
+//! Projection: points on the thing come back, and nothing sampled is nearer than the foot.
+
+mod specimens;
+
+use proptest::prelude::*;
+use specimens::{curves, part, surfaces};
+use trimloop_geom::{Curve, DVec2, DVec3, Surface};
+
+fn curve_samples(curve: &Curve, count: usize) -> Vec<DVec3> {
+    let range = part(curve.domain());
+    (0..=count).map(|i| curve.point(range.at(i as f64 / count as f64))).collect()
+}
+
+fn surface_samples(surface: &Surface, count: usize) -> Vec<DVec3> {
+    let [u, v] = surface.domain().map(part);
+    let steps = |r: trimloop_geom::Interval| -> Vec<f64> {
+        (0..=count).map(|i| r.at(i as f64 / count as f64)).collect()
+    };
+    surface.grid(&steps(u), &steps(v))
+}
+
+fn nearest(samples: &[DVec3], point: DVec3) -> f64 {
+    samples.iter().map(|p| p.distance(point)).fold(f64::INFINITY, f64::min)
+}
+
+fn any_point() -> impl Strategy<Value = DVec3> {
+    let x = -8.0..12.0;
+    (x.clone(), x.clone(), x).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
+
+    #[test]
+    fn a_point_of_a_curve_comes_back(s in 0.0..=1.0_f64) {
+        for curve in curves() {
+            let t = part(curve.domain()).at(s);
+            let point = curve.point(t);
+            let foot = curve.project(point, None);
+            prop_assert!(foot.distance <= 1e-10, "{} at {t}: {foot:?}", curve.kind());
+            let hinted = curve.project(point, Some(t + 0.01));
+            prop_assert!(hinted.distance <= 1e-10, "{} at {t} with hint: {hinted:?}", curve.kind());
+            prop_assert!(curve.domain().contains(foot.t));
+        }
+    }
+
+    #[test]
+    fn no_sample_of_a_curve_is_nearer(point in any_point(), hint in 0.0..=1.0_f64) {
+        for curve in curves() {
+            let best = nearest(&curve_samples(&curve, 400), point);
+            let foot = curve.project(point, None);
+            prop_assert!(foot.distance <= best + 1e-9, "{}: {foot:?} but {best}", curve.kind());
+            let hinted = curve.project(point, Some(part(curve.domain()).at(hint)));
+            prop_assert!(hinted.distance <= best + 1e-9, "{} hinted: {hinted:?} but {best}", curve.kind());
+        }
+    }
+
+    #[test]
+    fn a_point_of_a_surface_comes_back(s in 0.0..=1.0_f64, t in 0.0..=1.0_f64) {
+        for surface in surfaces() {
+            let [u, v] = surface.domain().map(part);
+            let uv = DVec2::new(u.at(s), v.at(t));
+            let point = surface.point(uv);
+            let foot = surface.project(point, None);
+            prop_assert!(foot.distance <= 1e-9, "{} at {uv}: {foot:?}", surface.kind());
+            let domain = surface.domain();
+            prop_assert!(domain[0].contains(foot.uv.x) && domain[1].contains(foot.uv.y), "{}: {foot:?}", surface.kind());
+            let hinted = surface.project(point, Some(uv + DVec2::new(0.01, -0.01)));
+            prop_assert!(hinted.distance <= 1e-9, "{} at {uv} with hint: {hinted:?}", surface.kind());
+        }
+    }
+
+    #[test]
+    fn hinted_feet_stay_within_half_a_period(s in -3.0..3.0_f64, t in 0.0..=1.0_f64) {
+        for surface in surfaces() {
+            let ([u, v], periods) = (surface.domain().map(part), surface.periods());
+            let uv = DVec2::new(if periods[0].is_some() { u.at(s) } else { u.at(t) }, if periods[1].is_some() { v.at(s) } else { v.at(t) });
+            let foot = surface.project(surface.point(uv), Some(uv));
+            for d in 0..2 {
+                if let Some(period) = periods[d] {
+                    prop_assert!((foot.uv[d] - uv[d]).abs() <= 0.5 * period + 1e-9, "{}: {uv} {foot:?}", surface.kind());
+                }
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(40) })]
+
+    #[test]
+    fn no_sample_of_a_surface_is_nearer(point in any_point(), s in 0.0..=1.0_f64, t in 0.0..=1.0_f64) {
+        for (index, surface) in surfaces().iter().enumerate() {
+            let best = nearest(&surface_samples(surface, 60), point);
+            let foot = surface.project(point, None);
+            prop_assert!(foot.distance <= best + 1e-9, "{index} {}: {foot:?} but {best}", surface.kind());
+            let [u, v] = surface.domain().map(part);
+            let hinted = surface.project(point, Some(DVec2::new(u.at(s), v.at(t))));
+            prop_assert!(hinted.distance <= best + 1e-9, "{index} {} hinted: {hinted:?} but {best}", surface.kind());
+        }
+    }
+}
