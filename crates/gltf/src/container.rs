@@ -92,14 +92,12 @@ fn shapes(
 /// Writes the header and the chunks of a GLB; gives its size.
 fn write_chunks(json: &[u8], document: &Finished, out: &mut dyn Write) -> Result<u64, GltfError> {
     let stored_len = document.stored_len as u64;
-    let bin_len = if stored_len > 0 { CHUNK_HEADER + stored_len } else { 0 };
-    let total = HEADER + CHUNK_HEADER + json.len() as u64 + bin_len;
-    let total_u32 = u32::try_from(total).map_err(|_| GltfError::TooLarge(total))?;
+    let total = glb_len(json.len() as u64, stored_len)?;
     let mut out = BufWriter::new(out);
     out.write_all(b"glTF")?;
     out.write_all(&2u32.to_le_bytes())?;
-    out.write_all(&total_u32.to_le_bytes())?;
-    // Both lengths are below the total, which fits.
+    out.write_all(&total.to_le_bytes())?;
+    // Both chunks are shorter than the total, which fits.
     out.write_all(&(json.len() as u32).to_le_bytes())?;
     out.write_all(b"JSON")?;
     out.write_all(json)?;
@@ -109,7 +107,14 @@ fn write_chunks(json: &[u8], document: &Finished, out: &mut dyn Write) -> Result
         write_pieces(document, &mut out)?;
     }
     out.flush()?;
-    Ok(total)
+    Ok(total.into())
+}
+
+/// Bytes of a GLB with chunks of these sizes; it has no second one where that would be empty.
+fn glb_len(json_len: u64, bin_len: u64) -> Result<u32, GltfError> {
+    let bin_len = if bin_len > 0 { CHUNK_HEADER + bin_len } else { 0 };
+    let total = HEADER + CHUNK_HEADER + json_len + bin_len;
+    u32::try_from(total).map_err(|_| GltfError::TooLarge(total))
 }
 
 fn write_pieces(document: &Finished, out: &mut dyn Write) -> std::io::Result<()> {
@@ -118,4 +123,18 @@ fn write_pieces(document: &Finished, out: &mut dyn Write) -> std::io::Result<()>
         out.write_all(piece)?;
     }
     out.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_glb_has_at_most_4_gib() {
+        assert_eq!(glb_len(100, 0).unwrap(), 120);
+        assert_eq!(glb_len(100, 8).unwrap(), 136);
+        let most = u64::from(u32::MAX) - 128;
+        assert_eq!(glb_len(100, most).unwrap(), u32::MAX);
+        assert!(matches!(glb_len(100, most + 1), Err(GltfError::TooLarge(0x1_0000_0000))));
+    }
 }

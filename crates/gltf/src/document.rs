@@ -9,10 +9,11 @@ use gltf::json::extras::RawValue;
 use gltf::json::mesh::{Primitive as JsonPrimitive, Semantic};
 use gltf::json::validation::{Checked, USize64};
 use gltf::json::{Accessor, Asset, Buffer, Extras, Index, Material, Mesh, Node, Root, Scene, Value};
-use serde_json::json;
+use serde_json::{Map, json};
 use trimloop_brep::{Model, Part};
 
 use crate::GltfOptions;
+use crate::compression;
 use crate::paint::{Finish, Tint};
 use crate::placement::{conversion, place};
 use crate::shape::{Primitive, Shape};
@@ -40,6 +41,8 @@ pub(crate) struct Document<'a> {
     pieces: Vec<Vec<u8>>,
     /// Bytes of the buffer so far.
     stored_len: usize,
+    /// Bytes of the buffer that compressed views unpack to.
+    unpacked_len: usize,
 }
 
 /// A finished document.
@@ -67,6 +70,7 @@ impl<'a> Document<'a> {
             root,
             pieces: Vec::new(),
             stored_len: 0,
+            unpacked_len: 0,
         }
     }
 
@@ -75,7 +79,7 @@ impl<'a> Document<'a> {
         let model = self.model;
         let (uses, roots) = visible(model);
         self.add_nodes(&uses, &roots);
-        self.add_buffer();
+        self.add_buffers();
         if self.options.quantize && !self.root.meshes.is_empty() {
             self.require("KHR_mesh_quantization");
         }
@@ -193,17 +197,10 @@ impl<'a> Document<'a> {
 
     /// Moves a stream's bytes to the end of the buffer and describes them by a view and an accessor.
     fn add_stream(&mut self, stream: &mut Stream) -> Index<Accessor> {
+        let offset = self.stored_len;
+        let view =
+            if stream.compressed { self.compressed_view(stream, offset) } else { plain_view(stream, offset) };
         let mut bytes = std::mem::take(&mut stream.bytes);
-        let view = View {
-            buffer: Index::new(0),
-            byte_length: USize64::from(bytes.len()),
-            byte_offset: (self.stored_len > 0).then(|| USize64::from(self.stored_len)),
-            byte_stride: stream.is_padded().then_some(Stride(stream.stride)),
-            target: Some(Checked::Valid(stream.target())),
-            name: None,
-            extensions: None,
-            extras: None,
-        };
         bytes.resize(bytes.len().next_multiple_of(4), 0);
         self.stored_len += bytes.len();
         self.pieces.push(bytes);
@@ -211,15 +208,29 @@ impl<'a> Document<'a> {
         self.root.push(accessor(stream, view))
     }
 
-    fn add_buffer(&mut self) {
+    /// A view of what a compressed stream at `offset` unpacks to: a piece of the buffer that is not there.
+    fn compressed_view(&mut self, stream: &Stream, offset: usize) -> View {
+        let place = self.unpacked_len;
+        self.unpacked_len += stream.plain_len().next_multiple_of(4);
+        let others = named_extension(compression::view_extension(stream, offset));
+        View {
+            buffer: Index::new(1),
+            byte_length: USize64::from(stream.plain_len()),
+            byte_offset: (place > 0).then(|| USize64::from(place)),
+            extensions: Some(gltf::json::extensions::buffer::View { others }),
+            ..plain_view(stream, 0)
+        }
+    }
+
+    fn add_buffers(&mut self) {
         if self.stored_len > 0 {
-            self.root.push(Buffer {
-                byte_length: USize64::from(self.stored_len),
-                uri: None,
-                name: None,
-                extensions: None,
-                extras: None,
-            });
+            self.root.push(buffer(self.stored_len));
+        }
+        if self.unpacked_len > 0 {
+            let others = named_extension(compression::fallback_extension());
+            let extensions = Some(gltf::json::extensions::buffer::Buffer { others });
+            self.root.push(Buffer { extensions, ..buffer(self.unpacked_len) });
+            self.require(compression::NAME);
         }
     }
 
@@ -227,6 +238,28 @@ impl<'a> Document<'a> {
         self.root.extensions_used.push(extension.to_owned());
         self.root.extensions_required.push(extension.to_owned());
     }
+}
+
+/// A view of a stream's bytes as they are, at `offset` of the first buffer.
+fn plain_view(stream: &Stream, offset: usize) -> View {
+    View {
+        buffer: Index::new(0),
+        byte_length: USize64::from(stream.bytes.len()),
+        byte_offset: (offset > 0).then(|| USize64::from(offset)),
+        byte_stride: stream.is_padded().then_some(Stride(stream.stride)),
+        target: Some(Checked::Valid(stream.target())),
+        name: None,
+        extensions: None,
+        extras: None,
+    }
+}
+
+fn buffer(bytes: usize) -> Buffer {
+    Buffer { byte_length: USize64::from(bytes), uri: None, name: None, extensions: None, extras: None }
+}
+
+fn named_extension(value: Value) -> Map<String, Value> {
+    Map::from_iter([(compression::NAME.to_owned(), value)])
 }
 
 fn accessor(stream: &Stream, view: Index<View>) -> Accessor {

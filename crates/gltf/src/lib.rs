@@ -14,6 +14,7 @@
 //! # Ok::<(), trimloop_gltf::GltfError>(())
 //! ```
 
+mod compression;
 mod container;
 mod document;
 mod grid;

@@ -9,6 +9,7 @@ use trimloop_geom::Aabb;
 use trimloop_mesh::{EdgeLine, PartMesh};
 
 use crate::GltfOptions;
+use crate::compression;
 use crate::grid::{Grid, usable};
 use crate::lines::Lines;
 use crate::paint::{Paint, Role};
@@ -50,6 +51,9 @@ impl Shape {
         if options.edges {
             shape.add_edges(part, mesh, &grid, &stored);
         }
+        if options.meshopt {
+            shape.primitives.iter_mut().flat_map(Primitive::streams).for_each(compression::compress);
+        }
         shape
     }
 
@@ -66,7 +70,10 @@ impl Shape {
             for face in faces {
                 welder.add(face as u32, &mesh.faces[face]);
             }
-            let triangles = welder.finish();
+            let mut triangles = welder.finish();
+            if options.meshopt {
+                compression::reorder(&mut triangles);
+            }
             if !triangles.indices.is_empty() {
                 self.triangles += triangles.indices.len() / 3;
                 self.vertices += triangles.points.len();
@@ -98,6 +105,11 @@ impl Shape {
 }
 
 impl Primitive {
+    fn streams(&mut self) -> impl Iterator<Item = &mut Stream> {
+        let attributes = [Some(&mut self.positions), self.normals.as_mut(), self.features.as_mut()];
+        attributes.into_iter().flatten().chain([&mut self.indices])
+    }
+
     fn of_triangles(triangles: &Triangles, paint: Paint, grid: &Grid, options: &GltfOptions) -> Self {
         let indices = Stream::indices(Usage::TriangleIndices, &triangles.indices, triangles.points.len());
         Self {

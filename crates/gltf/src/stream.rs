@@ -33,8 +33,10 @@ pub(crate) struct Stream {
     pub(crate) stride: usize,
     /// Smallest and largest value of each component; positions only.
     pub(crate) range: Option<[[f32; 3]; 2]>,
-    /// Little-endian, `count * stride` of them.
+    /// Little-endian, `count * stride` of them unless compressed.
     pub(crate) bytes: Vec<u8>,
+    /// Whether `bytes` are in the code of `EXT_meshopt_compression`.
+    pub(crate) compressed: bool,
 }
 
 impl Stream {
@@ -89,6 +91,17 @@ impl Stream {
         }
     }
 
+    /// Bytes of the data before compression.
+    pub(crate) const fn plain_len(&self) -> usize {
+        self.count * self.stride
+    }
+
+    /// The indices that it holds.
+    pub(crate) fn whole_numbers(&self) -> Vec<u32> {
+        let whole = |bytes: &[u8]| bytes.iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte));
+        self.bytes.chunks_exact(self.stride).map(whole).collect()
+    }
+
     /// Whether elements are padded, so that the stride must be said.
     pub(crate) fn is_padded(&self) -> bool {
         self.component.size() * self.kind.multiplicity() != self.stride
@@ -120,7 +133,17 @@ impl Stream {
         bytes: Vec<u8>,
     ) -> Self {
         let usage = Usage::Vertices;
-        Self { usage, component, kind, normalized: false, count, stride, range: None, bytes }
+        Self {
+            usage,
+            component,
+            kind,
+            normalized: false,
+            count,
+            stride,
+            range: None,
+            bytes,
+            compressed: false,
+        }
     }
 }
 
