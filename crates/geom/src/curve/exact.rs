@@ -2,8 +2,9 @@
 
 use glam::DVec4;
 
-use super::{CompositeCurve, Curve, Polyline};
+use super::{CompositeCurve, CompositeSegment, Curve, Polyline};
 use crate::nurbs::arc::Arc2;
+use crate::period::pieces;
 use crate::{Frame, Interval, NurbsCurve};
 
 impl Curve {
@@ -34,7 +35,7 @@ impl Curve {
             }
             Self::Polyline(ref polyline) => polyline.to_spline()?.restricted(range).ok(),
             Self::Nurbs(ref nurbs) => nurbs.restricted(range).ok(),
-            Self::Composite(ref composite) => composite.to_spline()?.restricted(range).ok(),
+            Self::Composite(ref composite) => composite.to_spline(range),
             Self::Offset(_) | Self::OnSurface { .. } => None,
         }
     }
@@ -61,16 +62,35 @@ impl Polyline {
 }
 
 impl CompositeCurve {
-    /// The segments at their highest degree, each over its unit of t.
-    fn to_spline(&self) -> Option<NurbsCurve> {
+    /// The parts of the segments inside `range` at their highest degree, each over its own part of t.
+    fn to_spline(&self, range: Interval) -> Option<NurbsCurve> {
+        let domain = self.domain();
+        let inside = domain.contains(range.start) && domain.contains(range.end);
+        let pieces = match self.period() {
+            Some(_) if !inside => pieces(range, domain),
+            _ => vec![(Interval::new(domain.clamp(range.start), domain.clamp(range.end)), 0.0)],
+        };
         let mut parts = Vec::with_capacity(self.segments.len());
-        for (index, segment) in self.segments.iter().enumerate() {
-            let part = segment.curve.to_nurbs(segment.range)?;
-            let part = if segment.reversed { part.reversed() } else { part };
-            let unit = Interval::new(index as f64, index as f64 + 1.0);
-            parts.push(part.reparametrized(unit).ok()?);
+        for (piece, shift) in pieces {
+            for (index, segment) in self.segments.iter().enumerate() {
+                let at = index as f64;
+                let part = Interval::new(piece.start.max(at), piece.end.min(at + 1.0));
+                if !part.is_empty() {
+                    let over = Interval::new(part.start + shift, part.end + shift);
+                    parts.push(segment.part(part.start - at, part.end - at)?.reparametrized(over).ok()?);
+                }
+            }
         }
         NurbsCurve::chained(&parts)
+    }
+}
+
+impl CompositeSegment {
+    /// The spline of the part between two shares of the segment, in its direction.
+    fn part(&self, start: f64, end: f64) -> Option<NurbsCurve> {
+        let [a, b] = [start, end].map(|s| self.parameter(s));
+        let spline = self.curve.to_nurbs(Interval::new(a.min(b), a.max(b)))?;
+        Some(if self.reversed { spline.reversed() } else { spline })
     }
 }
 

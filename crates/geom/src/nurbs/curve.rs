@@ -147,7 +147,7 @@ impl NurbsCurve {
     /// Points along the curve from which a global search starts, several per knot span, in order.
     pub(crate) fn samples(&self) -> &[(f64, DVec3)] {
         self.0.samples.get_or_init(|| {
-            let per_span = (2 * self.0.degree).clamp(4, 16);
+            let per_span = (3 * self.0.degree).clamp(6, 96);
             let parameters = sample_parameters(&self.distinct_knots(), per_span, 1 << 16);
             parameters.into_iter().map(|t| (t, self.point(t))).collect()
         })

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::nurbs::sample_parameters;
-use crate::{Aabb, Direction, NurbsSurface};
+use crate::{Aabb, Direction, Interval, NurbsSurface};
 
 /// Points over a surface's domain, with boxes around blocks of them.
 #[derive(Clone, Debug)]
@@ -34,13 +34,15 @@ const BLOCK: usize = 8;
 /// How many samples a surface may have.
 const CAP: usize = 1 << 16;
 /// How many local minima a search starts from.
-pub(super) const STARTS: usize = 8;
+pub(super) const STARTS: usize = 12;
 
 impl SampleGrid {
     /// A few points per knot span of a spline surface.
     pub fn of_nurbs(surface: &NurbsSurface) -> Self {
         let spans = [Direction::U, Direction::V].map(|d| surface.distinct_knots(d));
-        let mut steps = surface.degrees().map(|degree| (degree + 1).clamp(3, 8));
+        let rational = !surface.weights().is_empty();
+        let mut steps =
+            surface.degrees().map(|degree| (degree + 2 + if rational { degree / 2 } else { 0 }).clamp(4, 16));
         let count = |steps: [usize; 2]| (spans[0].len() * steps[0]).saturating_mul(spans[1].len() * steps[1]);
         while count(steps) > CAP && steps != [1, 1] {
             steps = steps.map(|s| (s - 1).max(1));
@@ -52,13 +54,7 @@ impl SampleGrid {
         }
         let [us, vs] = [0, 1].map(|d| sample_parameters(&spans[d], steps[d], caps[d]));
         let points = surface.grid(&us, &vs);
-        let closed = surface.periods().map(|p| p.is_some());
-        let kinks = [0, 1].map(|d| {
-            let mut found = kinks(surface.knots()[d], surface.degrees()[d]);
-            let domain = surface.domain()[d];
-            found.retain(|&k| closed[d] || (domain.start < k && k < domain.end));
-            found
-        });
+        let kinks = [creases(surface, Direction::U, &vs), creases(surface, Direction::V, &us)];
         Self { kinks, ..Self::new(us, vs, points) }
     }
 
@@ -106,21 +102,22 @@ impl SampleGrid {
         rows.flat_map(move |k| across.clone().map(move |l| k * columns + l))
     }
 
-    /// The best few samples that are no further than their eight neighbours and near which the surface may come nearer
-    /// than `bound`, best first.
-    pub fn local_minima(&self, target: DVec3, mut bound: f64) -> [Option<Start>; STARTS] {
+    /// The best few samples that are no further than their neighbours along u and along v (the diagonal ones would hide
+    /// slanting valleys) and near which the surface may come nearer
+    /// than `bound`, best first. `margin` is how far the surface that is searched lies off the sampled one.
+    pub fn local_minima(&self, target: DVec3, mut bound: f64, margin: f64) -> [Option<Start>; STARTS] {
         let mut best = [None; STARTS];
         for (block, bounds) in self.boxes.iter().enumerate() {
             let away = target.clamp(bounds.min, bounds.max).distance(target);
-            if away - self.reach[block] >= bound {
+            if away - self.reach[block] - margin >= bound {
                 continue;
             }
             for index in self.block(block) {
                 let distance = self.points[index].distance(target);
-                if distance - self.radii[index] < bound && self.is_minimum(target, index) {
+                if distance - self.radii[index] - margin < bound && self.is_minimum(target, index) {
                     let uv = DVec2::new(self.us[index / self.vs.len()], self.vs[index % self.vs.len()]);
                     keep(&mut best, Start { distance, uv, radius: self.radii[index] });
-                    bound = bound.min(distance);
+                    bound = bound.min(distance + margin);
                 }
             }
         }
@@ -128,8 +125,42 @@ impl SampleGrid {
     }
 
     fn is_minimum(&self, target: DVec3, index: usize) -> bool {
+        // Of equals (a pole's samples) only the first counts.
         let here = self.points[index].distance_squared(target);
-        self.neighbours(index).all(|k| here <= self.points[k].distance_squared(target))
+        let columns = self.vs.len();
+        let beside = |k: &usize| k / columns == index / columns || k % columns == index % columns;
+        self.neighbours(index).filter(beside).all(|k| {
+            let there = self.points[k].distance_squared(target);
+            here < there || (here == there && k >= index)
+        })
+    }
+
+    /// The part of the parameter plane around `uv` between the creases next to it, if there are any at all.
+    ///
+    /// Its upper ends lie a hair before the crease, where the derivatives are still those of this side.
+    pub fn smooth_cell(&self, uv: DVec2, limits: [Interval; 2]) -> Option<[Interval; 2]> {
+        if self.kinks.iter().all(Vec::is_empty) {
+            return None;
+        }
+        let along = |d: usize, parameters: &[f64]| {
+            let kinks = &self.kinks[d];
+            let above = kinks.partition_point(|&k| k <= uv[d]);
+            let hair = 1e-12 * (parameters[parameters.len() - 1] - parameters[0]);
+            let low = above.checked_sub(1).map_or(limits[d].start, |i| kinks[i]);
+            let high = kinks.get(above).map_or(limits[d].end, |k| k - hair);
+            Interval::new(low, high)
+        };
+        Some([along(0, &self.us), along(1, &self.vs)])
+    }
+
+    /// How far the samples around a sample's `uv` are from it, along u and v.
+    pub fn spacing(&self, uv: DVec2) -> DVec2 {
+        let along = |t: f64, parameters: &[f64]| {
+            let i = parameters.partition_point(|&x| x < t);
+            let (low, high) = (i.saturating_sub(1), (i + 1).min(parameters.len() - 1));
+            (t - parameters[low]).max(parameters[high] - t)
+        };
+        DVec2::new(along(uv.x, &self.us), along(uv.y, &self.vs))
     }
 
     /// Whether `uv` lies in one of the cells around the sample `start`, none of which ends in a crease there.
@@ -159,11 +190,32 @@ impl SampleGrid {
     }
 }
 
-/// The knots that come `degree` times or more often.
-fn kinks(knots: &[f64], degree: usize) -> Vec<f64> {
-    let mut kinks: Vec<f64> = knots.windows(degree).filter(|w| w[0] == w[degree - 1]).map(|w| w[0]).collect();
-    kinks.dedup();
-    kinks
+/// The values of one parameter at which the tangent along it jumps, somewhere among the values `across` of the other:
+/// knots that come `degree` times or more often, the seam of a closed surface included.
+fn creases(surface: &NurbsSurface, direction: Direction, across: &[f64]) -> Vec<f64> {
+    let d = direction as usize;
+    let (knots, degree, domain) = (surface.knots()[d], surface.degrees()[d], surface.domain()[d]);
+    let closed = surface.periods()[d].is_some();
+    let inside = |k: f64| domain.start < k && k < domain.end;
+    let mut found: Vec<f64> = knots
+        .windows(degree)
+        .filter(|w| w[0] == w[degree - 1] && (closed || inside(w[0])))
+        .map(|w| w[0])
+        .collect();
+    found.dedup();
+    let hair = 1e-9 * domain.length();
+    let tangent = |t: f64, other: f64| {
+        let uv = if d == 0 { DVec2::new(t, other) } else { DVec2::new(other, t) };
+        let s = surface.first_derivatives(uv);
+        if d == 0 { s.du } else { s.dv }
+    };
+    found.retain(|&k| {
+        across.iter().step_by((across.len() / 64).max(1)).any(|&other| {
+            let (before, after) = (tangent(k - hair, other), tangent(k + hair, other));
+            before.distance(after) > 1e-5 * before.length().max(after.length())
+        })
+    });
+    found
 }
 
 fn keep(best: &mut [Option<Start>; STARTS], mut start: Start) {

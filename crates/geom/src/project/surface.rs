@@ -26,7 +26,7 @@ impl Surface {
                 swept::project_revolution(profile, *origin, *axis, point, hint)
             }
             Self::Nurbs(nurbs) => self.search(point, hint, || Cow::Borrowed(nurbs.samples())),
-            Self::Offset { basis, .. } => self.project_offset(basis, point, hint),
+            Self::Offset { basis, distance } => self.project_offset(basis, *distance, point, hint),
             _ => elementary::project(self, point, hint).unwrap_or_default(),
         };
         self.foot(uv, point)
@@ -47,16 +47,24 @@ impl Surface {
         self.settle(search.nearest(point, hint, samples).uv, hint)
     }
 
-    /// The feet on an offset and on its basis share their parameters, if not always the same one is nearest: start
-    /// from the basis' foot, and search where that is not proper.
-    fn project_offset(&self, basis: &Self, point: DVec3, hint: Option<DVec2>) -> DVec2 {
+    /// The feet on an offset and on its basis share their parameters, if not always the same one is nearest: without a
+    /// hint start from the basis' foot, and look around where that may not be the nearest.
+    fn project_offset(&self, basis: &Self, distance: f64, point: DVec3, hint: Option<DVec2>) -> DVec2 {
         let search = SurfaceSearch::new(self);
-        let foot = search.descend(point, basis.project(point, hint).uv);
-        if foot.proper {
-            return self.settle(foot.uv, hint);
-        }
-        let other = search.nearest(point, hint, || Cow::Owned(self.fresh_samples(foot.uv)));
-        self.settle(if other.distance2 < foot.distance2 { other.uv } else { foot.uv }, hint)
+        let foot = match basis {
+            Self::Nurbs(nurbs) => {
+                let start = hint.unwrap_or_else(|| basis.project(point, None).uv);
+                let samples = || Cow::Borrowed(nurbs.samples());
+                search.with_margin(distance.abs()).nearest(point, Some(start), samples)
+            }
+            _ => {
+                let start = basis.project(point, hint).uv;
+                let foot = search.descend(point, start);
+                let samples = || Cow::Owned(self.fresh_samples(start));
+                if foot.proper { foot } else { search.nearest(point, Some(start), samples) }
+            }
+        };
+        self.settle(foot.uv, hint)
     }
 
     fn settle(&self, uv: DVec2, hint: Option<DVec2>) -> DVec2 {

@@ -13,6 +13,8 @@ pub(super) struct SurfaceSearch<'a> {
     surface: &'a Surface,
     /// Infinite where the surface is closed (evaluation wraps then).
     limits: [Interval; 2],
+    /// How far the surface lies off the one whose samples are used.
+    margin: f64,
     /// The longest steps.
     reach: DVec2,
 }
@@ -33,7 +35,12 @@ impl<'a> SurfaceSearch<'a> {
         let (domain, periods) = (surface.domain(), surface.periods());
         let limits = [0, 1].map(|d| if periods[d].is_some() { Interval::INFINITE } else { domain[d] });
         let reach = domain.map(|d| if d.is_finite() { 0.5 * d.length() } else { f64::INFINITY });
-        Self { surface, limits, reach: DVec2::from(reach) }
+        Self { surface, limits, reach: DVec2::from(reach), margin: 0.0 }
+    }
+
+    /// A search that uses samples of a surface `margin` away, over the same parameters.
+    pub fn with_margin(self, margin: f64) -> Self {
+        Self { margin, ..self }
     }
 
     /// The local solution from the hint when it is proper and no part of the surface, judged by its samples, can be
@@ -61,16 +68,21 @@ impl<'a> SurfaceSearch<'a> {
 
     /// The best of a foot and of the descents from the sampled minima that may lead nearer.
     fn improve(&self, target: DVec3, mut best: Foot, samples: &SampleGrid) -> Foot {
-        for start in samples.local_minima(target, best.distance2.sqrt()).iter().flatten() {
+        for start in samples.local_minima(target, best.distance2.sqrt(), self.margin).iter().flatten() {
             let known = best.proper && samples.is_beside(start, self.inside(best.uv));
-            if known || start.distance - start.radius >= best.distance2.sqrt() {
+            if known || start.distance - start.radius - self.margin >= best.distance2.sqrt() {
                 continue;
             }
-            if start.distance * start.distance < best.distance2 {
-                best = Foot { uv: start.uv, distance2: start.distance * start.distance, proper: false };
+            let sampled = self.surface.point(start.uv).distance_squared(target);
+            if sampled < best.distance2 {
+                best = Foot { uv: start.uv, distance2: sampled, proper: false };
             }
             for from in samples.approaches(start.uv) {
-                let foot = self.descend(target, from);
+                // On a creased surface the foot may lie on a crease, which each side then has as its border.
+                let limits = samples.smooth_cell(from, self.limits).unwrap_or(self.limits);
+                // Short steps, so as not to leap out of the basin.
+                let local = Self { limits, reach: samples.spacing(start.uv), ..*self };
+                let foot = local.descend(target, from);
                 if foot.distance2 < best.distance2 * (1.0 - 1e-12)
                     || (foot.proper && foot.distance2 <= best.distance2)
                 {
@@ -88,22 +100,28 @@ impl<'a> SurfaceSearch<'a> {
         DVec2::new(along(0), along(1))
     }
 
-    /// From a pole every direction must be tried: there the distance has no gradient along the degenerate side.
+    /// From a pole, and anywhere near it, the right direction must be tried: beside a degenerate side the distance has
+    /// next to no gradient along it.
     fn around_pole(&self, target: DVec3, best: Foot) -> Foot {
         let domain = self.surface.domain();
         let mut result = best;
         for pole in self.surface.singularities() {
             let (d, other) = if pole.constant == Direction::U { (0, 1) } else { (1, 0) };
-            let length = domain[d].length();
-            if (best.uv[d] - pole.at).abs() > 1e-3 * length || !domain[other].is_finite() {
+            let away = self.inside(best.uv)[d] - pole.at;
+            if away.abs() > 0.1 * domain[d].length() || !domain[other].is_finite() {
                 continue;
             }
-            let inwards = if pole.at > domain[d].at(0.5) { -1e-3 } else { 1e-3 };
-            for share in 0..8 {
-                let mut uv = DVec2::ZERO;
-                uv[d] = pole.at + inwards * length;
-                uv[other] = domain[other].at((f64::from(share) + 0.5) / 8.0);
-                let foot = self.descend(target, uv);
+            let least = 1e-3 * domain[d].length();
+            let inwards = if pole.at > domain[d].at(0.5) { away.min(-least) } else { away.max(least) };
+            let beside = |share: f64| {
+                let mut uv = DVec2::splat(pole.at + inwards);
+                uv[other] = domain[other].at(share);
+                uv
+            };
+            let starts = (0..16).map(|i| beside((f64::from(i) + 0.5) / 16.0));
+            let distance2 = |uv: &DVec2| self.surface.point(*uv).distance_squared(target);
+            if let Some(start) = starts.min_by(|a, b| distance2(a).total_cmp(&distance2(b))) {
+                let foot = self.descend(target, start);
                 if foot.distance2 < result.distance2 {
                     result = foot;
                 }
