@@ -1,9 +1,10 @@
 //! The exchange structure: the text and the table of its records.
 
 use crate::anchor::{Anchor, Entry, ExternalReference};
+use crate::check::check_all;
 use crate::fault::{Damage, DamageList};
 use crate::ids::IdTable;
-use crate::layout::{Layout, SectionStart, lay_out};
+use crate::layout::{SectionStart, lay_out};
 use crate::looks_like::looks_like;
 use crate::position::LineIndex;
 use crate::record::Record;
@@ -63,8 +64,9 @@ impl Exchange {
         let text = decoded(unpacked(source, options)?);
         let start = text_start(&text)?;
         let mut layout = lay_out(&text, start, options.max_errors);
-        check_all(&text, &mut layout);
+        check_all(&text, &mut layout.records, &mut layout.damage);
         let ids = index(&mut layout.records, &mut layout.damage);
+        layout.records.shrink_to_fit();
         if layout.records.is_empty() && !text[start..].starts_with(MAGIC) {
             return Err(ReadError::NotPart21(
                 "this is not a STEP file (ISO 10303-21): it has no instance".into(),
@@ -165,7 +167,7 @@ impl Exchange {
     }
 
     /// Line and column of a byte offset. The first call counts the lines of the whole text, later ones at most those
-    /// of 64 KiB.
+    /// of 4 KiB.
     pub fn position(&self, offset: usize) -> Position {
         self.lines.get_or_init(|| LineIndex::new(&self.text)).position(&self.text, offset)
     }
@@ -200,7 +202,7 @@ fn decoded(source: Source) -> Source {
 /// Where the first statement starts, if these bytes can be an exchange file at all.
 fn text_start(text: &[u8]) -> Result<usize, ReadError> {
     let head = &text[..text.len().min(MAGIC_WITHIN)];
-    if head.trim_ascii().is_empty() && head.len() == text.len() {
+    if text.iter().all(|&byte| byte <= b' ') {
         return Err(ReadError::NotPart21("the file is empty".into()));
     }
     if let Some(start) = memchr::memmem::find(head, MAGIC) {
@@ -213,49 +215,6 @@ fn text_start(text: &[u8]) -> Result<usize, ReadError> {
     }
     let what = looks_like(text).map_or(String::new(), |what| format!("; it looks like {what}"));
     Err(ReadError::NotPart21(format!("this is not a STEP file (ISO 10303-21){what}")))
-}
-
-/// Records that are checked before their damage is put together, which bounds what a file with nothing but damage
-/// takes.
-const BATCH: usize = 1 << 17;
-
-/// Records that one thread checks at a time.
-const CHUNK: usize = 1 << 10;
-
-/// Checks all records, on all cores; the result does not depend on their number.
-fn check_all(text: &[u8], layout: &mut Layout) {
-    let limit = layout.damage.limit();
-    let check_chunk = |chunk: &mut [Record]| {
-        let (mut extra, mut damage) = (Vec::new(), DamageList::new(limit));
-        for record in chunk {
-            crate::record::check(text, record, &mut extra, &mut damage);
-        }
-        (extra, damage)
-    };
-    let mut extra = Vec::new();
-    for batch in layout.records.chunks_mut(BATCH) {
-        for (more, damage) in in_chunks(batch, check_chunk) {
-            extra.extend(more);
-            layout.damage.append(damage);
-        }
-    }
-    layout.records.retain(Record::is_usable);
-    if !extra.is_empty() {
-        layout.records.append(&mut extra);
-        layout.records.sort_by_key(|record| record.start);
-    }
-    layout.records.shrink_to_fit();
-}
-
-#[cfg(feature = "parallel")]
-fn in_chunks<T: Send>(records: &mut [Record], check: impl Fn(&mut [Record]) -> T + Sync + Send) -> Vec<T> {
-    use rayon::prelude::*;
-    records.par_chunks_mut(CHUNK).map(check).collect()
-}
-
-#[cfg(not(feature = "parallel"))]
-fn in_chunks<T>(records: &mut [Record], check: impl Fn(&mut [Record]) -> T) -> Vec<T> {
-    records.chunks_mut(CHUNK).map(check).collect()
 }
 
 /// The table of numbers. Of records with the same number the first stays, the others are reported and removed.

@@ -15,6 +15,14 @@ impl<'a> Fault<'a> {
     pub fn at<T>(rest: &'a [u8], message: &'static str) -> Result<T, nom::Err<Self>> {
         Err(nom::Err::Error(Fault { rest, message }))
     }
+
+    /// The fault out of nom's wrapping.
+    pub fn of(error: nom::Err<Self>) -> Self {
+        match error {
+            nom::Err::Error(fault) | nom::Err::Failure(fault) => fault,
+            nom::Err::Incomplete(_) => Fault { rest: &[], message: "the record ends early" },
+        }
+    }
 }
 
 impl<'a> ParseError<&'a [u8]> for Fault<'a> {

@@ -37,11 +37,21 @@ pub(crate) enum Atom<'a> {
 
 /// Skips white space (with every control character, as the standard asks), comments and print controls.
 /// Stays before a comment that is not closed.
-#[inline]
-pub(crate) fn space(mut rest: &[u8]) -> &[u8] {
+#[inline(always)]
+pub(crate) fn space(rest: &[u8]) -> &[u8] {
+    match rest.first() {
+        // Mostly there is none.
+        Some(&byte) if byte > b' ' && byte != b'/' && byte != b'\\' => rest,
+        _ => skip_space(rest),
+    }
+}
+
+fn skip_space(mut rest: &[u8]) -> &[u8] {
     loop {
+        while let [0..=b' ', tail @ ..] = rest {
+            rest = tail;
+        }
         match rest {
-            [0..=b' ', tail @ ..] => rest = tail,
             [b'/', b'*', ..] => match comment_end(rest, 2) {
                 Some(end) => rest = &rest[end..],
                 None => return rest,
@@ -53,24 +63,40 @@ pub(crate) fn space(mut rest: &[u8]) -> &[u8] {
 }
 
 /// A standard or user-defined (`!NAME`) keyword; lower case is tolerated.
+#[inline]
 pub(crate) fn keyword(input: &[u8]) -> Parsed<'_, &[u8]> {
-    let first = |byte: u8| byte.is_ascii_alphabetic() || byte == b'_';
     match input {
-        [b'!', byte, ..] | [byte, ..] if first(*byte) || *byte == b'!' => {
-            recognize((opt(tag("!")), take_while1(is_name))).parse(input)
-        }
+        [b'A'..=b'Z' | b'a'..=b'z' | b'_', ..] => take_while1(is_name).parse(input),
+        [b'!', ..] => recognize((tag("!"), take_while1(is_name))).parse(input),
         _ => Fault::at(input, "a keyword is expected"),
     }
 }
 
+#[inline]
 fn is_name(byte: u8) -> bool {
-    byte.is_ascii_alphanumeric() || byte == b'_'
+    IN_NAME[usize::from(byte)]
 }
 
+/// Letters, digits and the underscore. Half of a file is keywords and numbers: a look-up is faster than comparisons.
+const IN_NAME: [bool; 256] = {
+    let mut table = [false; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        table[byte] = (byte as u8).is_ascii_alphanumeric() || byte as u8 == b'_';
+        byte += 1;
+    }
+    table
+};
+
 /// One parameter, white space before it skipped.
-#[inline]
+#[inline(always)]
 pub(crate) fn atom(input: &[u8]) -> Parsed<'_, Atom<'_>> {
-    let input = space(input);
+    atom_here(space(input))
+}
+
+/// One parameter. It and what it calls are inlined, for they are most of what checking a file costs.
+#[inline(always)]
+fn atom_here(input: &[u8]) -> Parsed<'_, Atom<'_>> {
     match input {
         [b'#', ..] => reference(input),
         [b'0'..=b'9' | b'+' | b'-', ..] | [b'.', b'0'..=b'9', ..] => number(input),
@@ -89,6 +115,7 @@ pub(crate) fn atom(input: &[u8]) -> Parsed<'_, Atom<'_>> {
     }
 }
 
+#[inline(always)]
 fn reference(input: &[u8]) -> Parsed<'_, Atom<'_>> {
     match number_sign(input) {
         Ok((rest, id)) => Ok((rest, Atom::Reference(id))),
@@ -98,11 +125,13 @@ fn reference(input: &[u8]) -> Parsed<'_, Atom<'_>> {
 }
 
 /// `#12`: the number of an instance.
+#[inline(always)]
 fn number_sign(input: &[u8]) -> Parsed<'_, u64> {
     preceded(tag("#"), instance_number).parse(input)
 }
 
 /// The digits of an instance's number.
+#[inline(always)]
 pub(crate) fn instance_number(input: &[u8]) -> Parsed<'_, u64> {
     let (rest, digits) = digit1.parse(input)?;
     let add = |id: u64, digit: &u8| id.checked_mul(10)?.checked_add(u64::from(digit - b'0'));
@@ -122,6 +151,7 @@ fn named_reference(input: &[u8]) -> Parsed<'_, Atom<'_>> {
 
 /// Integers and reals; tolerated beyond the standard: no digit before or after the point, an exponent without a
 /// point, a small `e`, and FORTRAN's `D`.
+#[inline(always)]
 fn number(input: &[u8]) -> Parsed<'_, Atom<'_>> {
     let (rest, (_, whole)) = (opt(one_of(&b"+-"[..])), digit0).parse(input)?;
     let (rest, fraction) = opt(preceded(tag("."), digit0)).parse(rest)?;
@@ -134,6 +164,7 @@ fn number(input: &[u8]) -> Parsed<'_, Atom<'_>> {
     Ok((rest, if is_integer { Atom::Integer(literal) } else { Atom::Real(literal) }))
 }
 
+#[inline(always)]
 fn string(input: &[u8]) -> Parsed<'_, Atom<'_>> {
     match string_end(input, 1) {
         StringEnd::Closed(end) => Ok((&input[end + 1..], Atom::String(&input[1..end]))),
@@ -201,7 +232,7 @@ pub(crate) fn parameters(mut rest: &[u8]) -> Parsed<'_, ()> {
             }
             (Expected::CommaOrEnd, [b',', tail @ ..]) => (tail, Expected::Parameter),
             (Expected::CommaOrEnd, _) => return missing_comma(rest),
-            _ => match atom(rest)? {
+            _ => match atom_here(rest)? {
                 (_, Atom::Open | Atom::OpenTyped(_)) if depth == MAX_NESTING => {
                     return Fault::at(rest, "lists are nested deeper than 64 levels");
                 }
@@ -227,32 +258,30 @@ fn missing_comma<'a, T>(rest: &'a [u8]) -> Parsed<'a, T> {
 /// at, so this is for text that [`parameters`] has checked.
 pub(crate) fn skip_list(mut rest: &[u8]) -> &[u8] {
     let mut depth = 1;
-    while let Some((&byte, tail)) = rest.split_first() {
-        match byte {
-            b'(' => depth += 1,
+    while let Some(at) = rest.iter().position(|&byte| matches!(byte, b'(' | b')' | b'\'' | b'/')) {
+        let end = match rest[at] {
+            b'\'' => match string_end(rest, at + 1) {
+                StringEnd::Closed(end) => Some(end + 1),
+                StringEnd::Open(_) => None,
+            },
+            b'/' if rest.get(at + 1) == Some(&b'*') => comment_end(rest, at + 2),
+            b'(' => {
+                depth += 1;
+                Some(at + 1)
+            }
             b')' => {
                 depth -= 1;
                 if depth == 0 {
-                    return tail;
+                    return &rest[at + 1..];
                 }
+                Some(at + 1)
             }
-            b'\'' => match string_end(rest, 1) {
-                StringEnd::Closed(end) => {
-                    rest = &rest[end + 1..];
-                    continue;
-                }
-                StringEnd::Open(_) => return &[],
-            },
-            b'/' if tail.first() == Some(&b'*') => match comment_end(rest, 2) {
-                Some(end) => {
-                    rest = &rest[end..];
-                    continue;
-                }
-                None => return &[],
-            },
-            _ => {}
+            _ => Some(at + 1),
+        };
+        match end {
+            Some(end) => rest = &rest[end..],
+            None => return &[],
         }
-        rest = tail;
     }
-    rest
+    &[]
 }

@@ -40,8 +40,10 @@ impl<'a> Instance<'a> {
     /// The parts: one for a simple instance.
     pub fn parts(&self) -> impl Iterator<Item = (&'a str, Args<'a>)> + use<'a> {
         let body = self.record.body(self.text);
-        let rest = if self.is_complex() { body.get(1..).unwrap_or_default() } else { body };
-        Parts { rest, in_part: false }
+        if self.is_complex() {
+            return Parts { only: None, rest: body.get(1..).unwrap_or_default(), in_part: false };
+        }
+        Parts { only: Some((self.keyword(), self.args())), rest: &[], in_part: false }
     }
 
     /// Arguments of the (first) part with this keyword, in either case.
@@ -51,10 +53,13 @@ impl<'a> Instance<'a> {
 
     /// Arguments of the first part.
     pub fn args(&self) -> Args<'a> {
-        self.parts().next().map_or(Args::new(&[]), |(_, args)| args)
+        match usize::from(self.record.keyword_length) {
+            0 => self.parts().next().map_or(Args::new(&[]), |(_, args)| args),
+            length => Args::new(after_parenthesis(&self.record.body(self.text)[length..])),
+        }
     }
 
-    /// Byte offset of `#` in the unpacked text.
+    /// Byte offset of `#` in the unpacked text (of `ENDSCOPE` in the scope structures of edition 1).
     pub fn offset(&self) -> usize {
         self.record.start
     }
@@ -79,6 +84,8 @@ impl fmt::Debug for Instance<'_> {
 /// Walks over `KEYWORD(...)`s.
 #[derive(Clone)]
 struct Parts<'a> {
+    /// The part of a simple instance, which need not be looked for.
+    only: Option<(&'a str, Args<'a>)>,
     rest: &'a [u8],
     /// `rest` is after the `(` of the part that was given last.
     in_part: bool,
@@ -88,14 +95,22 @@ impl<'a> Iterator for Parts<'a> {
     type Item = (&'a str, Args<'a>);
 
     fn next(&mut self) -> Option<Self::Item> {
+        if self.only.is_some() {
+            return self.only.take();
+        }
         if self.in_part {
             self.rest = skip_list(self.rest);
         }
         let (rest, name) = keyword(space(self.rest)).ok()?;
-        self.rest = space(rest).get(1..)?;
+        self.rest = after_parenthesis(rest);
         self.in_part = true;
         Some((ascii(name), Args::new(self.rest)))
     }
+}
+
+/// The text after the next opening parenthesis, which is all that may be there.
+fn after_parenthesis(text: &[u8]) -> &[u8] {
+    space(text).get(1..).unwrap_or_default()
 }
 
 /// Text that the grammar lets consist of ASCII only.

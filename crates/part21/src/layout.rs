@@ -2,11 +2,11 @@
 
 use crate::Args;
 use crate::anchor::Entry;
-use crate::fault::{Damage, DamageList};
+use crate::fault::{Damage, DamageList, Fault};
 use crate::grammar::{Parsed, parameters, space};
 use crate::header::{Header, string, strings};
 use crate::instance::ascii;
-use crate::record::{Record, fault_of, part};
+use crate::record::{Record, part};
 use crate::scan::Scanner;
 
 /// What one walk over the text finds.
@@ -153,7 +153,7 @@ impl<'a> Walk<'a> {
         match parsed {
             Ok(parsed) => Some(parsed),
             Err(error) => {
-                let fault = fault_of(error);
+                let fault = Fault::of(error);
                 self.damage(end - fault.rest.len(), fault.message);
                 None
             }

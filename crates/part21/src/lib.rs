@@ -33,6 +33,7 @@
 //! checked against the grammar in parallel.
 
 mod anchor;
+mod check;
 #[cfg(feature = "compression")]
 mod container;
 mod error;
@@ -50,6 +51,7 @@ mod param;
 mod position;
 mod record;
 mod scan;
+mod scope;
 mod source;
 mod text;
 mod utf16;

@@ -12,7 +12,7 @@ pub struct Position {
 }
 
 /// Bytes between two entries of a [`LineIndex`]: what one look-up may have to count through.
-const BLOCK: usize = 1 << 16;
+const BLOCK: usize = 1 << 12;
 
 /// For the start of every block of the text: the number of line ends before it, and where the line that it is in
 /// starts. A look-up then counts through less than a block, however long the file or its lines.

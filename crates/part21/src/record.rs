@@ -1,8 +1,7 @@
-//! One record of the table: where it is in the text, and the check that it can be read.
+//! One record of the table: where it is in the text, and how it is written.
 
-use crate::fault::{Damage, DamageList, Fault};
+use crate::fault::Fault;
 use crate::grammar::{Parsed, instance_number, keyword, parameters, space};
-use crate::scan::{begins_record, next_record_line};
 
 /// An instance in the text. Kept at 24 bytes, since records themselves are often no longer than 40.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +18,7 @@ pub(crate) struct Record {
 }
 
 /// [`Record::body_at`] of a record with so long a comment before its keyword that it has to be looked for again.
-const FAR: u16 = u16::MAX;
+pub(crate) const FAR: u16 = u16::MAX;
 
 impl Record {
     /// A stretch of text that has yet to be checked.
@@ -47,14 +46,27 @@ impl Record {
         if self.body_at != FAR {
             return &text[usize::from(self.body_at)..];
         }
-        head(text).map_or(&[], |(body, _)| body)
+        prefix(text).map_or(&[], |(body, _)| body)
     }
 }
 
-/// `#12 =`; gives the number, and leaves the text from the keyword on. `# 12=` and `#12 =` are tolerated.
-fn head(text: &[u8]) -> Parsed<'_, u64> {
+/// What stands before a keyword.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Prefix {
+    /// `#12 =`
+    Number(u64),
+    /// `ENDSCOPE /#13,#14/`, see [`crate::scope`].
+    ScopeEnd,
+}
+
+/// Leaves the text from the keyword on. `# 12=` and `#12 =` are tolerated.
+#[inline]
+pub(crate) fn prefix(text: &[u8]) -> Parsed<'_, Prefix> {
     let Some(number) = text.strip_prefix(b"#") else {
-        return Fault::at(text, "an instance (#number = ...) is expected");
+        return match text.strip_prefix(b"ENDSCOPE") {
+            Some(exported) => scope_end(exported),
+            None => Fault::at(text, "an instance (#number = KEYWORD(...)) is expected"),
+        };
     };
     let number = space(number);
     if !number.first().is_some_and(u8::is_ascii_digit) {
@@ -62,13 +74,23 @@ fn head(text: &[u8]) -> Parsed<'_, u64> {
     }
     let (rest, id) = instance_number(number)?;
     match space(rest) {
-        [b'=', body @ ..] => Ok((space(body), id)),
+        [b'=', body @ ..] => Ok((space(body), Prefix::Number(id))),
         rest => Fault::at(rest, "an equals sign is expected after the instance's number"),
     }
 }
 
+/// The exported numbers, which say nothing about the instance itself.
+fn scope_end(text: &[u8]) -> Parsed<'_, Prefix> {
+    let exported = space(text);
+    let Some(list) = exported.strip_prefix(b"/") else { return Ok((exported, Prefix::ScopeEnd)) };
+    match list.iter().position(|byte| !matches!(byte, b'#' | b',' | b'0'..=b'9' | 0..=b' ')) {
+        Some(end) if list[end] == b'/' => Ok((space(&list[end + 1..]), Prefix::ScopeEnd)),
+        _ => Fault::at(exported, "a scope does not end with /#number, .../"),
+    }
+}
+
 /// `KEYWORD(...)`, and the length of the keyword; or `(A(...) B(...))`, and 0.
-fn body(text: &[u8]) -> Parsed<'_, usize> {
+pub(crate) fn body(text: &[u8]) -> Parsed<'_, usize> {
     let Some(parts) = text.strip_prefix(b"(") else {
         let (rest, name) = part(text)?;
         return Ok((rest, name.len()));
@@ -92,60 +114,5 @@ pub(crate) fn part(text: &[u8]) -> Parsed<'_, &[u8]> {
             Ok((rest, name))
         }
         other => Fault::at(other, "an opening parenthesis is expected after a keyword"),
-    }
-}
-
-/// Checks the record in place. Further records, found in its text because a `;` is missing, go to `extra`.
-pub(crate) fn check(file: &[u8], record: &mut Record, extra: &mut Vec<Record>, damage: &mut DamageList) {
-    let end = record.end();
-    let mut resume = check_one(file, record, damage);
-    while let Some(start) = resume {
-        let mut another = Record::unchecked(start, end);
-        resume = check_one(file, &mut another, damage);
-        if another.is_usable() {
-            extra.push(another);
-        }
-    }
-}
-
-/// Checks one record; damage is reported once, and a record that cannot be read gets the length 0. Gives the offset
-/// of the next instance within the record's text, if there is one: then a `;` is missing.
-fn check_one(file: &[u8], record: &mut Record, damage: &mut DamageList) -> Option<usize> {
-    let text = record.text(file);
-    let (instance, fault) = match read(text, record) {
-        Ok([]) => return None,
-        Ok(rest) => (Some(record.id), Fault { rest, message: "a semicolon is expected here" }),
-        Err((instance, fault)) => (instance, fault),
-    };
-    let offset = record.start + text.len() - fault.rest.len();
-    damage.push(Damage { offset, instance, message: fault.message });
-    let next =
-        if begins_record(fault.rest) { Some(text.len() - fault.rest.len()) } else { next_record_line(text) };
-    next.map(|at| record.start + at)
-}
-
-/// Fills in the record, its end included; gives the text left over, or the damage and the instance it concerns.
-fn read<'a>(text: &'a [u8], record: &mut Record) -> Result<&'a [u8], (Option<u64>, Fault<'a>)> {
-    record.length = 0;
-    let (body_text, id) = head(text).map_err(|error| (None, fault_of(error)))?;
-    let (after, keyword_length) = body(body_text).map_err(|error| (Some(id), fault_of(error)))?;
-    let Ok(keyword_length) = u16::try_from(keyword_length) else {
-        return Err((
-            Some(id),
-            Fault { rest: body_text, message: "a keyword is longer than 65535 characters" },
-        ));
-    };
-    record.id = id;
-    record.keyword_length = keyword_length;
-    record.body_at = u16::try_from(text.len() - body_text.len()).unwrap_or(FAR);
-    record.length = (text.len() - after.len()) as u32;
-    Ok(space(after))
-}
-
-/// The fault in nom's wrapping.
-pub(crate) fn fault_of<'a>(error: nom::Err<Fault<'a>>) -> Fault<'a> {
-    match error {
-        nom::Err::Error(fault) | nom::Err::Failure(fault) => fault,
-        nom::Err::Incomplete(_) => Fault { rest: &[], message: "the record ends early" },
     }
 }

@@ -15,7 +15,16 @@ pub(crate) enum StringEnd {
 ///
 /// A string may run over lines, as writers that wrap at 72 columns do; but a line that begins an instance shows that
 /// a quote is missing before it.
-pub(crate) fn string_end(text: &[u8], mut from: usize) -> StringEnd {
+#[inline]
+pub(crate) fn string_end(text: &[u8], from: usize) -> StringEnd {
+    match text.get(from..) {
+        // Most strings are empty.
+        Some([b'\'', next, ..]) if *next != b'\'' => StringEnd::Closed(from),
+        _ => long_string_end(text, from),
+    }
+}
+
+fn long_string_end(text: &[u8], mut from: usize) -> StringEnd {
     while let Some(found) = text.get(from..).and_then(|rest| memchr3(b'\'', b'\n', b'\r', rest)) {
         let at = from + found;
         if text[at] != b'\'' {
