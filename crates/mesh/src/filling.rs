@@ -33,7 +33,15 @@ struct SiteInSpace {
     uv: DVec2,
     point: u32,
     position: DVec3,
+    /// From the surface to `position`: where the model's edges lie off the surface, its triangles cannot keep to it.
+    lift: DVec3,
     normal: DVec3,
+}
+
+impl SiteInSpace {
+    fn on_surface(&self) -> DVec3 {
+        self.position - self.lift
+    }
 }
 
 /// Rounds of refinement; each halves what is still too long.
@@ -83,7 +91,8 @@ impl<'a> Filling<'a> {
             if site as usize == self.sites.len() {
                 let position = domain.point(corner, samples);
                 let normal = self.normal(corner.uv);
-                self.sites.push(SiteInSpace { uv: corner.uv, point: corner.point, position, normal });
+                let lift = position - self.surface.point(corner.uv);
+                self.sites.push(SiteInSpace { uv: corner.uv, point: corner.point, position, lift, normal });
             } else if self.sites[site as usize].point != corner.point {
                 self.merged = true;
             }
@@ -94,7 +103,7 @@ impl<'a> Filling<'a> {
     fn place_inner(&mut self, uv: DVec2) {
         let position = self.surface.point(uv);
         let normal = self.normal(uv);
-        self.sites.push(SiteInSpace { uv, point: self.next_point, position, normal });
+        self.sites.push(SiteInSpace { uv, point: self.next_point, position, lift: DVec3::ZERO, normal });
         self.next_point += 1;
     }
 
@@ -169,7 +178,7 @@ impl<'a> Filling<'a> {
         }
         let length = sa.position.distance(sb.position);
         let at = (self.triangulation.at(a) + self.triangulation.at(b)) * 0.5;
-        let off = self.off_surface(at, (sa.position + sb.position) * 0.5);
+        let off = self.off_surface(at, (sa.on_surface() + sb.on_surface()) * 0.5);
         // A chord between two turned normals bulges at least by their angle's share: cheaper than the angle itself.
         let turned = sa.normal.dot(sb.normal) < (self.tolerance.angular_rad * 1.001).cos()
             && sa.normal != DVec3::ZERO
@@ -185,7 +194,7 @@ impl<'a> Filling<'a> {
         }
         let [pa, pb, pc] = t.map(|s| self.triangulation.at(s));
         let at = (pa + pb + pc) / 3.0;
-        let off = self.off_surface(at, (a.position + b.position + c.position) / 3.0);
+        let off = self.off_surface(at, (a.on_surface() + b.on_surface() + c.on_surface()) / 3.0);
         ((off > self.tolerance.linear_mm).then_some(at), off)
     }
 

@@ -37,10 +37,20 @@ pub(crate) struct Triangulation {
     domain_polygons: Vec<Vec<DVec2>>,
 }
 
-/// Spade refuses coordinates that are very small but not zero.
+/// How far the plane is sheared before it is triangulated.
+const SHEAR: f64 = 1e-7;
+
+/// A warped point as the triangulation takes it. The shear decides between the two equally good diagonals of a
+/// rectangle, always for the one that rises with both parameters (as OpenCASCADE does); coordinates that are very small
+/// but not zero are refused by spade.
 fn tame(p: DVec2) -> DVec2 {
     let f = |x: f64| if x.abs() < 1e-40 { 0.0 } else { x };
-    DVec2::new(f(p.x), f(p.y))
+    DVec2::new(f(p.x - SHEAR * p.y), f(p.y))
+}
+
+/// The warped point of a triangulated one.
+fn untame(p: DVec2) -> DVec2 {
+    DVec2::new(p.x + SHEAR * p.y, p.y)
 }
 
 impl Triangulation {
@@ -77,7 +87,7 @@ impl Triangulation {
 
     /// The warped place of a site.
     pub fn at(&self, site: u32) -> DVec2 {
-        self.cdt.vertex(spade::handles::FixedVertexHandle::from_index(site as usize)).data().at
+        untame(self.cdt.vertex(spade::handles::FixedVertexHandle::from_index(site as usize)).data().at)
     }
 
     /// Adds a point; its site, or `None` if it coincides with one that exists.

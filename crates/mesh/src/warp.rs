@@ -64,6 +64,9 @@ struct Cell {
 /// A step in a direction without curvature is at most this many times as long as one across it.
 const MAX_ASPECT: f64 = 8.0;
 
+/// The same on free-form surfaces, where it also sets how far apart points lie.
+const FREE_FORM_ASPECT: f64 = 12.0;
+
 impl Warp {
     /// The warp for `surface` over `low`..`high`; at most `max_points` line crossings.
     pub fn new(surface: &Surface, low: DVec2, high: DVec2, tolerance: Tolerance, max_points: usize) -> Self {
@@ -76,6 +79,7 @@ impl Warp {
             [stations(surface, Direction::U, ranges[0]), stations(surface, Direction::V, ranges[1])];
         let (u_cells, v_cells) = measure(surface, &stations, tolerance);
         let cells = [u_cells, v_cells];
+        let cells = limit_lengths(surface, &stations, cells, tolerance);
         let wanted = [wanted_lines(&stations[0], &cells[0]), wanted_lines(&stations[1], &cells[1])];
         let thin = (wanted[0] * wanted[1] / max_points.max(1) as f64).sqrt().max(1.0);
         let lines = [0, 1].map(|k| {
@@ -203,6 +207,41 @@ fn steps_at(surface: &Surface, uv: DVec2, tolerance: Tolerance) -> [Cell; 2] {
         let floor = tolerance.shortest_chord_mm() * per_mm;
         Cell { step: (by_angle.min(by_distance) * share).max(floor), per_mm }
     })
+}
+
+/// How many steps a face has at least in direction `k`: as many as the surface's degree, up to three.
+fn pieces_at_least(surface: &Surface, k: usize) -> f64 {
+    match surface {
+        Surface::Nurbs(nurbs) => nurbs.degrees()[k].min(3) as f64,
+        Surface::Extrusion { .. } if k == 1 => 1.0,
+        Surface::Revolution { .. } if k == 0 => 1.0,
+        Surface::Offset { basis, .. } => pieces_at_least(basis, k),
+        _ => 3.0,
+    }
+}
+
+/// Steps on free-form surfaces are limited where curvature does not: to a share of the face and of the step across, so that no triangle spans a large face from side to side. Lengths near the tolerance are left alone.
+fn limit_lengths(
+    surface: &Surface,
+    stations: &[Vec<f64>; 2],
+    mut cells: [Vec<Cell>; 2],
+    tolerance: Tolerance,
+) -> [Vec<Cell>; 2] {
+    if !matches!(surface.kind(), "nurbs" | "extrusion" | "revolution" | "offset") {
+        return cells;
+    }
+    let least_mm = tolerance.linear_mm * 25.0;
+    let shortest = |cells: &[Cell]| cells.iter().map(|c| c.step / c.per_mm).fold(f64::INFINITY, f64::min);
+    let across_mm = [shortest(&cells[1]), shortest(&cells[0])];
+    for k in 0..2 {
+        let ends = [stations[k].first(), stations[k].last()].map(|e| e.copied().unwrap_or(0.0));
+        let piece = (ends[1] - ends[0]) / pieces_at_least(surface, k);
+        for cell in &mut cells[k] {
+            let limit = piece.min(across_mm[k] * FREE_FORM_ASPECT * cell.per_mm);
+            cell.step = cell.step.min(limit.max(least_mm * cell.per_mm));
+        }
+    }
+    cells
 }
 
 fn wanted_lines(stations: &[f64], cells: &[Cell]) -> f64 {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use trimloop_brep::{Edge, FaceGeometry, FaceId, Part};
-use trimloop_geom::{Curve, Direction, Interval, Singularity, Surface};
+use trimloop_geom::{Curve, Direction, Interval, Singularity, Surface, SurfacePoint};
 
 use crate::Tolerance;
 
@@ -356,9 +356,19 @@ impl Sampler<'_> {
 
     fn foot(&self, ground: &Ground, point: DVec3, hint: Option<DVec2>) -> Foot {
         let singular = ground.singularities.iter().position(|s| s.point.distance(point) <= self.snap);
-        let foot = ground.surface.project(point, hint);
+        let foot = self.project(ground, point, hint);
         let normal = (ground.curved && singular.is_none()).then(|| ground.surface.normal(foot.uv)).flatten();
         Foot { uv: foot.uv, normal, singular: singular.map(|s| s as u8), distance: foot.distance }
+    }
+
+    /// The foot from `hint`; searched anew where that is too far away to be the right one.
+    fn project(&self, ground: &Ground, point: DVec3, hint: Option<DVec2>) -> SurfacePoint {
+        let foot = ground.surface.project(point, hint);
+        if hint.is_none() || foot.distance <= self.tolerance.linear_mm * 0.1 {
+            return foot;
+        }
+        let other = ground.surface.project(point, None);
+        if other.distance < foot.distance * 0.5 { other } else { foot }
     }
 
     /// Adds the samples strictly between `a` and `b`.
