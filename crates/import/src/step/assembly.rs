@@ -1,13 +1,14 @@
-//! The instance tree: products, their uses, mapped items.
+//! The instance tree.
 
-use glam::DAffine3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use trimloop_brep::{Diagnostic, Diagnostics, Node, Severity};
 
-use super::component::Placements;
 use super::keyword::Kind;
+use super::look::Look;
+use super::part_builder::is_part_geometry;
 use super::product::Products;
 use super::representation::Representations;
+use super::shape_links::{Link, Shape, ShapeLinks};
 use super::style::Looks;
 use super::table::Table;
 
@@ -36,56 +37,42 @@ pub(crate) struct Tree {
     pub diagnostics: Diagnostics,
 }
 
-/// A node to be made.
-struct Pending {
-    parent: Option<usize>,
-    shape: Shape,
-    transform: DAffine3,
-    instance_name: Option<String>,
-    entity: usize,
-    /// The entities that may carry a colour for this use alone.
-    styled: Vec<usize>,
-}
-
-/// What a node shows: a product definition, or a representation that no product owns.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Shape {
-    Product(usize),
-    Representation(usize),
-}
-
+/// Expands the shapes of a file to a tree.
 pub(crate) struct TreeBuilder<'t> {
     table: &'t Table<'t>,
     products: &'t Products,
     representations: &'t Representations,
-    placements: &'t Placements<'t>,
+    links: ShapeLinks<'t>,
     looks: &'t Looks,
     tree: Tree,
-    shapes: Vec<(Shape, Option<usize>)>,
+    /// For each node what it shows, under whose name, and its parent.
+    shown: Vec<(Shape, Shape, Option<usize>)>,
     part_of: FxHashMap<Shape, Option<usize>>,
     max_nodes: usize,
-    reported: FxHashSet<usize>,
+    refused: FxHashSet<(usize, &'static str)>,
 }
 
 impl<'t> TreeBuilder<'t> {
+    /// A builder that has done nothing yet.
     pub fn new(
         table: &'t Table<'t>,
         products: &'t Products,
         representations: &'t Representations,
-        placements: &'t Placements<'t>,
+        links: ShapeLinks<'t>,
         looks: &'t Looks,
     ) -> Self {
         Self {
             table,
             products,
             representations,
-            placements,
+            links,
             looks,
             tree: Tree::default(),
-            shapes: Vec::new(),
+            shown: Vec::new(),
             part_of: FxHashMap::default(),
+            // Exponentially many instances can be asked for in a few lines; five million would fill memory.
             max_nodes: (100_000 + 16 * table.len()).min(5_000_000),
-            reported: FxHashSet::default(),
+            refused: FxHashSet::default(),
         }
     }
 
@@ -94,23 +81,20 @@ impl<'t> TreeBuilder<'t> {
         for shape in self.root_shapes() {
             self.expand(shape);
         }
+        self.tree.diagnostics.append(&mut self.links.diagnostics);
         self.tree
     }
 
     /// Products that nothing uses; representations where there are no products with a shape.
     fn root_shapes(&self) -> Vec<Shape> {
-        let mapped = self.mapped_representations();
-        let has_shape = |&&index: &&usize| {
-            let product = self.products.get(index).expect("listed");
-            !product.representations.is_empty() || !product.uses.is_empty()
+        let placed = self.links.placed_representations();
+        let shaped: Vec<usize> =
+            self.products.indices().iter().copied().filter(|&i| self.has_shape(i)).collect();
+        let is_root = |&index: &usize| {
+            let own = self.links.representations_of(Shape::Product(index));
+            !self.products.is_used(index) && (own.is_empty() || !own.iter().all(|held| placed.contains(held)))
         };
-        let is_mapped = |index: usize| {
-            let product = self.products.get(index).expect("listed");
-            !product.representations.is_empty() && product.representations.iter().all(|r| mapped.contains(r))
-        };
-        let shaped: Vec<usize> = self.products.indices().iter().filter(has_shape).copied().collect();
-        let roots: Vec<_> =
-            shaped.iter().copied().filter(|&i| !self.products.is_used(i) && !is_mapped(i)).collect();
+        let roots: Vec<_> = shaped.iter().copied().filter(is_root).collect();
         // Where every product is used by another, the assembly contains itself: start anywhere.
         let roots = if roots.is_empty() { shaped.first().copied().into_iter().collect() } else { roots };
         if !roots.is_empty() {
@@ -118,7 +102,8 @@ impl<'t> TreeBuilder<'t> {
         }
         let holds_something = |&index: &usize| {
             let items = self.representations.get(index).map(|held| held.items.as_slice()).unwrap_or_default();
-            !mapped.contains(&index) && items.iter().any(|&item| is_shown(self.table.kind(item)))
+            let is_shown = |kind| is_part_geometry(kind) || kind == Kind::MappedItem;
+            !placed.contains(&index) && items.iter().any(|&item| is_shown(self.table.kind(item)))
         };
         self.representations
             .indices()
@@ -129,202 +114,114 @@ impl<'t> TreeBuilder<'t> {
             .collect()
     }
 
-    fn mapped_representations(&self) -> FxHashSet<usize> {
-        let maps = self.table.of(&[Kind::RepresentationMap]);
-        maps.filter_map(|map| self.table.attributes(map).after(1).optional_reference()).collect()
+    fn has_shape(&self, index: usize) -> bool {
+        let product = self.products.get(index);
+        product.is_some_and(|product| !product.representations.is_empty() || !product.uses.is_empty())
     }
 
     fn expand(&mut self, root: Shape) {
-        let entity = match root {
-            Shape::Product(index) | Shape::Representation(index) => index,
-        };
-        let mut stack = vec![Pending {
-            parent: None,
-            shape: root,
-            transform: DAffine3::IDENTITY,
-            instance_name: None,
-            entity,
-            styled: Vec::new(),
-        }];
-        while let Some(pending) = stack.pop() {
-            if !self.may_add(&pending) {
-                continue;
+        let mut stack = vec![(None, self.links.root(root))];
+        while let Some((parent, link)) = stack.pop() {
+            if self.may_add(parent, &link) {
+                let shape = link.shape;
+                let node = self.add_node(parent, link);
+                let below = self.links.of(shape);
+                stack.extend(below.iter().rev().map(|link| (Some(node), link.clone())));
             }
-            let shape = pending.shape;
-            let node = self.add_node(pending);
-            let mut children = self.children(shape, node);
-            children.reverse();
-            stack.append(&mut children);
         }
     }
 
     /// Whether a node may be made: not inside itself, not too deep, not one too many.
-    fn may_add(&mut self, pending: &Pending) -> bool {
+    fn may_add(&mut self, parent: Option<usize>, link: &Link) -> bool {
         if self.tree.nodes.len() >= self.max_nodes {
-            self.refuse(
+            return self.refuse(
                 usize::MAX,
-                pending.entity,
+                link.entity,
                 "assembly-too-large",
                 "the assembly has too many instances",
             );
-            return false;
         }
-        let mut ancestor = pending.parent;
+        let mut ancestor = parent;
         let mut depth = 0;
         while let Some(node) = ancestor {
-            let (shape, parent) = self.shapes[node];
-            if shape == pending.shape {
-                self.refuse(pending.entity, pending.entity, "assembly-cycle", "the product contains itself");
-                return false;
+            let (shape, named, above) = self.shown[node];
+            if shape == link.shape || named == link.named {
+                return self.refuse(
+                    link.entity,
+                    link.entity,
+                    "assembly-cycle",
+                    "the product contains itself",
+                );
             }
             depth += 1;
-            ancestor = parent;
-        }
-        if depth >= MAX_DEPTH {
-            self.refuse(
-                pending.entity,
-                pending.entity,
-                "assembly-too-deep",
-                "the assembly is nested too deeply",
-            );
+            ancestor = above;
         }
         depth < MAX_DEPTH
+            || self.refuse(link.entity, link.entity, "assembly-too-deep", "the assembly is nested too deeply")
     }
 
-    fn refuse(&mut self, key: usize, entity: usize, code: &'static str, why: &str) {
-        if self.reported.insert(key) {
+    /// Reports that something is left out; gives false.
+    fn refuse(&mut self, key: usize, entity: usize, code: &'static str, why: &str) -> bool {
+        if self.refused.insert((key, code)) {
             let entity = self.table.entity(entity);
             let message = format!("{entity} is left out: {why}.");
             self.tree.diagnostics.push(Diagnostic::new(Severity::Error, code, entity, message));
         }
+        false
     }
 
-    fn add_node(&mut self, pending: Pending) -> usize {
-        let (name, id) = self.names(pending.shape);
-        let part = self.part(pending.shape);
-        let look =
-            pending.styled.iter().map(|&index| self.looks.of(index)).find(|look| *look != Default::default());
-        let look = look.unwrap_or_default();
+    fn add_node(&mut self, parent: Option<usize>, link: Link) -> usize {
+        let (name, id) = self.names(link.named);
+        let part = self.part(&link);
+        let look = link.styled.iter().fold(Look::default(), |look, &index| look.over(self.looks.of(index)));
         let index = self.tree.nodes.len();
         self.tree.nodes.push(Node {
             name,
             id,
-            instance_name: pending.instance_name,
-            entity: self.table.entity(pending.entity),
-            transform: pending.transform,
+            instance_name: link.instance_name,
+            entity: self.table.entity(link.entity),
+            transform: link.transform,
             part,
             children: Vec::new(),
             color: look.surface,
             hidden: look.hidden,
         });
-        self.shapes.push((pending.shape, pending.parent));
-        match pending.parent {
+        self.shown.push((link.shape, link.named, parent));
+        match parent {
             Some(parent) => self.tree.nodes[parent].children.push(index),
             None => self.tree.roots.push(index),
         }
         index
     }
 
+    /// Name and id of a shape.
     fn names(&self, shape: Shape) -> (String, String) {
-        match shape {
-            Shape::Product(index) => {
-                let product = self.products.get(index).expect("only product definitions are expanded");
-                (product.name.clone(), product.id.clone())
-            }
-            Shape::Representation(index) => {
-                let name = self.representations.get(index).map(|held| held.name.clone()).unwrap_or_default();
-                let id = self.table.entity(index).to_string();
-                (if name.trim().is_empty() { id.clone() } else { name }, id)
-            }
+        let product = match shape {
+            Shape::Product(index) => self.products.get(index),
+            Shape::Representation(_) => None,
+        };
+        if let Some(product) = product {
+            return (product.name.clone(), product.id.clone());
         }
-    }
-
-    fn own_representations(&self, shape: Shape) -> Vec<usize> {
-        match shape {
-            Shape::Product(index) => {
-                self.products.get(index).map(|product| product.representations.clone()).unwrap_or_default()
-            }
-            Shape::Representation(index) => vec![index],
-        }
+        let name = self.representations.get(shape.entity()).map(|held| held.name.clone()).unwrap_or_default();
+        let id = self.table.entity(shape.entity()).to_string();
+        (if name.trim().is_empty() { id.clone() } else { name }, id)
     }
 
     /// The part with the shape's own geometry; planned when it is met first.
-    fn part(&mut self, shape: Shape) -> Option<usize> {
-        if let Some(&part) = self.part_of.get(&shape) {
+    fn part(&mut self, link: &Link) -> Option<usize> {
+        if let Some(&part) = self.part_of.get(&link.shape) {
             return part;
         }
-        let representations = self.own_representations(shape);
-        let items = representations.iter().filter_map(|&index| self.representations.get(index));
-        let has_geometry = items.flat_map(|held| &held.items).any(|&item| is_geometry(self.table.kind(item)));
+        let has_geometry = self.links.has_geometry(link.shape);
         let part = has_geometry.then_some(self.tree.plans.len());
         if has_geometry {
-            let (name, id) = self.names(shape);
-            let (Shape::Product(entity) | Shape::Representation(entity)) = shape;
+            let (name, id) = self.names(link.named);
+            let representations = self.links.representations_of(link.shape).to_vec();
+            let entity = link.shape.entity();
             self.tree.plans.push(PartPlan { entity, name, id, representations, lone_items: Vec::new() });
         }
-        self.part_of.insert(shape, part);
+        self.part_of.insert(link.shape, part);
         part
     }
-
-    fn children(&mut self, shape: Shape, parent: usize) -> Vec<Pending> {
-        let mut children = Vec::new();
-        if let Shape::Product(index) = shape {
-            let assembly = self.products.get(index).expect("only product definitions are expanded");
-            for usage in &assembly.uses {
-                let Some(component) = self.products.get(usage.child) else { continue };
-                let (transform, mut reader) = self.placements.of_use(usage, assembly, component);
-                if self.reported.insert(usage.index) {
-                    self.tree.diagnostics.append(&mut reader.notes);
-                }
-                children.push(Pending {
-                    parent: Some(parent),
-                    shape: Shape::Product(usage.child),
-                    transform,
-                    instance_name: usage.name.clone(),
-                    entity: usage.index,
-                    styled: [Some(usage.index), usage.placed_by].into_iter().flatten().collect(),
-                });
-            }
-        }
-        for representation in self.own_representations(shape) {
-            self.mapped_children(representation, parent, &mut children);
-        }
-        children
-    }
-
-    fn mapped_children(&mut self, representation: usize, parent: usize, children: &mut Vec<Pending>) {
-        let Some(held) = self.representations.get(representation) else { return };
-        for &item in held.items.iter().filter(|&&item| self.table.kind(item) == Kind::MappedItem) {
-            let Some((mapped, transform, mut reader)) = self.placements.of_mapped_item(item, representation)
-            else {
-                continue;
-            };
-            if self.reported.insert(item) {
-                self.tree.diagnostics.append(&mut reader.notes);
-            }
-            if self.representations.get(mapped).is_none() {
-                continue;
-            }
-            let shape = self.products.owner_of(mapped).map_or(Shape::Representation(mapped), Shape::Product);
-            let name = self.table.attributes(item).text().into_owned();
-            children.push(Pending {
-                parent: Some(parent),
-                shape,
-                transform,
-                instance_name: (!name.is_empty()).then_some(name),
-                entity: item,
-                styled: vec![item],
-            });
-        }
-    }
-}
-
-/// Whether an item of a representation is geometry of the representation's own.
-fn is_geometry(kind: Kind) -> bool {
-    super::part_builder::is_part_geometry(kind)
-}
-
-/// Whether an item shows something, itself or through a map.
-fn is_shown(kind: Kind) -> bool {
-    is_geometry(kind) || kind == Kind::MappedItem
 }

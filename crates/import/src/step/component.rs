@@ -41,6 +41,14 @@ impl Placements<'_> {
         (map, reader)
     }
 
+    /// The map of a placing relationship that no use claims: its first representation stands in its second, or
+    /// the other way where `inverse`.
+    pub fn of_attachment(&self, relationship: usize, inverse: bool) -> (DAffine3, Reader<'_>) {
+        let mut reader = Reader::new(self.table, self.budget, Default::default());
+        let map = self.between(&mut reader, relationship, |_, _| inverse);
+        (map, reader)
+    }
+
     /// The map from the first to the second representation of a relationship; from the second to the first where
     /// `is_inverse` says so of the two.
     fn between(
@@ -80,9 +88,7 @@ impl Placements<'_> {
             reader.note_missing_placement(operator);
             return DAffine3::IDENTITY;
         };
-        let lists = |representation: usize, item: usize| {
-            self.representations.get(representation).is_some_and(|held| held.items.contains(&item))
-        };
+        let lists = |representation, item| self.representations.lists(representation, item);
         let swapped =
             !lists(first, item1) && !lists(second, item2) && lists(first, item2) && lists(second, item1);
         let (from, to) = if swapped { (item2, item1) } else { (item1, item2) };

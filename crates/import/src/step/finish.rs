@@ -8,11 +8,14 @@ use trimloop_brep::{
 };
 use trimloop_geom::{Curve, Frame, Interval, Surface};
 
+use super::chain::mend_loops;
 use super::edge_range::edge_range;
 use super::fault::{Fault, Outcome};
 use super::parallel::map;
+use super::pcurve_hints::hints;
 use super::reader::{Budget, Reader};
 use super::seeds::{EdgeCurve, EdgeSeed, FaceSeed, FaceSurface, Seeds, VertexSeed};
+use super::straighten::straighten;
 use super::table::Table;
 use super::units::Units;
 
@@ -21,16 +24,21 @@ use super::units::Units;
 const UNREPORTED_GAP_MM: f64 = 1e-3;
 
 /// Reads all geometry of a part.
-pub(crate) fn finish(table: &Table<'_>, budget: &Budget, seeds: Seeds) -> (Part, Diagnostics) {
+pub(crate) fn finish(table: &Table<'_>, budget: &Budget, mut seeds: Seeds) -> (Part, Diagnostics) {
     let stage = Stage { table, budget };
-    let mut diagnostics = seeds.diagnostics;
     let points = map(&seeds.vertices, |vertex| stage.point(vertex));
+    mend_loops(&mut seeds, &points);
+    let mut diagnostics = std::mem::take(&mut seeds.diagnostics);
     let curves = collect(map(&seeds.curves, |&(index, units)| stage.curve(index, units)), &mut diagnostics);
     let surfaces =
         collect(map(&seeds.surfaces, |&(index, units)| stage.surface(index, units)), &mut diagnostics);
-    let edges = collect(map(&seeds.edges, |edge| stage.edge(edge, &points, &curves)), &mut diagnostics);
+    let mut edges = collect(map(&seeds.edges, |edge| stage.edge(edge, &points, &curves)), &mut diagnostics);
+    straighten(table, &seeds, &points, &surfaces, &mut edges, &mut diagnostics);
+    let hints = hints(table, budget, &seeds, &surfaces);
     let mut faces = Vec::with_capacity(seeds.faces.len());
-    for seed in seeds.faces {
+    for (mut seed, hints) in seeds.faces.into_iter().zip(hints) {
+        let coedges = seed.loops.iter_mut().flat_map(|bound| &mut bound.coedges);
+        coedges.zip(hints).for_each(|(coedge, hint)| coedge.pcurve = hint);
         faces.push(stage.face(seed, &points, &surfaces, &edges, &mut diagnostics));
     }
     let vertices = seeds.vertices.iter().zip(&points).map(|(seed, point)| Vertex {
@@ -147,8 +155,10 @@ impl<'t> Stage<'t> {
         let curve = match &seed.curve {
             EdgeCurve::Slot(slot) => curves[*slot].clone()?,
             EdgeCurve::Straight => {
-                let curve = Curve::Line { origin: start, direction: end - start };
-                return Ok(made(Arc::new(curve), Interval::new(0.0, 1.0), true));
+                let direction = if start == end { DVec3::X } else { end - start };
+                let range = Interval::new(0.0, if start == end { 0.0 } else { 1.0 });
+                let curve = Curve::Line { origin: start, direction };
+                return Ok(made(Arc::new(curve), range, true));
             }
             EdgeCurve::Ready(curve, range) => return Ok(made(curve.clone(), *range, seed.same_sense)),
         };
@@ -193,7 +203,8 @@ impl<'t> Stage<'t> {
         let (geometry, loops) = match geometry {
             Ok(geometry) => (geometry, seed.loops),
             Err(fault) => {
-                let message = format!("Face {entity} is lost: {}.", fault.message);
+                let message =
+                    format!("Face {entity} is lost: {}{}.", fault.message, self.place(fault.entity));
                 diagnostics.push(
                     Diagnostic::new(Severity::Error, "face-unreadable", fault.entity, message)
                         .on_face(entity),
@@ -210,6 +221,14 @@ impl<'t> Stage<'t> {
             color: seed.color,
             hidden: seed.hidden,
         }
+    }
+
+    /// Where in the file an entity stands, for a message.
+    fn place(&self, entity: EntityRef) -> String {
+        let EntityRef::Step(id) = entity else { return String::new() };
+        let exchange = self.table.exchange();
+        let instance = exchange.get(id);
+        instance.map_or_else(String::new, |it| format!(" (line {})", exchange.position(it.offset()).line))
     }
 
     fn face_geometry(

@@ -3,6 +3,7 @@
 mod assembly;
 mod attributes;
 mod body;
+mod chain;
 mod component;
 mod context;
 mod curve;
@@ -16,13 +17,16 @@ mod lone_surface;
 mod look;
 mod parallel;
 mod part_builder;
+mod pcurve_hints;
 mod placement;
 mod product;
 mod reader;
 mod representation;
 mod seeds;
+mod shape_links;
 mod source;
 mod spline;
+mod straighten;
 mod style;
 mod surface;
 mod table;
@@ -41,6 +45,7 @@ use self::part_builder::{PartBuilder, is_part_geometry, is_tessellated};
 use self::product::Products;
 use self::reader::Budget;
 use self::representation::Representations;
+use self::shape_links::ShapeLinks;
 use self::style::Looks;
 use self::table::Table;
 use self::units::UnitTable;
@@ -99,12 +104,13 @@ struct File<'t> {
 
 impl<'t> File<'t> {
     fn new(table: &'t Table<'t>) -> Self {
-        let representations = Representations::new(table);
+        let mut representations = Representations::new(table);
+        let products = Products::new(table, &mut representations);
         Self {
             table,
             budget: Budget::for_entities(table.len()),
             units: UnitTable::new(table),
-            products: Products::new(table, &representations),
+            products,
             representations,
             looks: Looks::new(table),
             layers: Layers::new(table),
@@ -118,7 +124,8 @@ impl<'t> File<'t> {
             units: &self.units,
             budget: &self.budget,
         };
-        TreeBuilder::new(self.table, &self.products, &self.representations, &placements, &self.looks).build()
+        let links = ShapeLinks::new(self.table, &self.products, &self.representations, &placements);
+        TreeBuilder::new(self.table, &self.products, &self.representations, links, &self.looks).build()
     }
 
     /// Files without any representation: every solid and surface model becomes a part.

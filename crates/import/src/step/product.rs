@@ -44,7 +44,7 @@ pub(crate) struct Products {
 
 impl Products {
     /// Reads product definitions, their shapes, and their uses in each other.
-    pub fn new(table: &Table<'_>, representations: &Representations) -> Self {
+    pub fn new(table: &Table<'_>, representations: &mut Representations) -> Self {
         let kinds = [Kind::ProductDefinition, Kind::ProductDefinitionWithAssociatedDocuments];
         let in_order: Vec<_> = table.of(&kinds).collect();
         let by_index = in_order.iter().map(|&index| (index, names(table, index))).collect();
@@ -52,7 +52,7 @@ impl Products {
             Self { by_index, in_order, owner_of: FxHashMap::default(), used: FxHashSet::default() };
         let definitions = definitions(table);
         products.add_shapes(table, representations, &definitions);
-        products.add_uses(table, &definitions);
+        products.add_uses(table, &definitions, representations);
         products
     }
 
@@ -111,8 +111,17 @@ impl Products {
         }
     }
 
-    fn add_uses(&mut self, table: &Table<'_>, definitions: &FxHashMap<usize, usize>) {
+    fn add_uses(
+        &mut self,
+        table: &Table<'_>,
+        definitions: &FxHashMap<usize, usize>,
+        representations: &mut Representations,
+    ) {
         let placements = placements(table, definitions);
+        for (_, relationship) in placements.values() {
+            representations.claim(*relationship);
+        }
+        representations.sort_attachments();
         for index in table.of(&[Kind::NextAssemblyUsageOccurrence, Kind::AssemblyComponentUsage]) {
             let mut attributes = table.attributes(index);
             let (id, name, description) = (attributes.text(), attributes.text(), attributes.text());
@@ -121,15 +130,22 @@ impl Products {
             if !self.by_index.contains_key(&child) {
                 continue;
             }
-            let Some(assembly) = self.by_index.get_mut(&parent) else { continue };
+            let Some(assembly) = self.by_index.get(&parent) else { continue };
             // Some systems write a fixed phrase as the name; where there is a description, it is what people see.
             let shown = [description, name, id].into_iter().find(|text| !text.trim().is_empty());
             let name = shown.map(|text| text.trim().to_owned());
             let (placed_by, relationship) = match placements.get(&index) {
                 Some(&(by, relationship)) => (Some(by), Some(relationship)),
-                None => (None, None),
+                None => {
+                    let ends = (
+                        assembly.representations.as_slice(),
+                        self.by_index[&child].representations.as_slice(),
+                    );
+                    (None, representations.claim_between(ends.0, ends.1))
+                }
             };
-            assembly.uses.push(Use { index, child, name, relationship, placed_by });
+            let usage = Use { index, child, name, relationship, placed_by };
+            self.by_index.get_mut(&parent).expect("found above").uses.push(usage);
             self.used.insert(child);
         }
     }

@@ -1,6 +1,8 @@
 //! Representations: which items belong together, under which units, and which representations are joined.
 
-use rustc_hash::FxHashMap;
+use std::collections::VecDeque;
+
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::keyword::Kind;
 use super::table::Table;
@@ -21,7 +23,22 @@ pub(crate) struct Representation {
 pub(crate) struct Representations {
     by_index: FxHashMap<usize, Representation>,
     in_order: Vec<usize>,
+    listed: FxHashSet<(usize, usize)>,
     joined: FxHashMap<usize, Vec<usize>>,
+    attachments: Vec<Attachment>,
+    claimed: FxHashSet<usize>,
+    of_pair: FxHashMap<(usize, usize), VecDeque<usize>>,
+}
+
+/// A `representation_relationship_with_transformation`: the first representation stands in the second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Attachment {
+    /// The relationship.
+    pub relationship: usize,
+    /// `rep_1`.
+    pub first: usize,
+    /// `rep_2`.
+    pub second: usize,
 }
 
 impl Representations {
@@ -29,7 +46,11 @@ impl Representations {
     pub fn new(table: &Table<'_>) -> Self {
         let in_order: Vec<_> =
             (0..table.len()).filter(|&index| is_shape_representation(table.kind(index))).collect();
-        let by_index = in_order.iter().map(|&index| (index, read(table, index))).collect();
+        let by_index: FxHashMap<usize, Representation> =
+            in_order.iter().map(|&index| (index, read(table, index))).collect();
+        let items =
+            by_index.iter().flat_map(|(&index, held)| held.items.iter().map(move |&item| (index, item)));
+        let listed = items.filter(|&(_, item)| is_placement(table.kind(item))).collect();
         let mut joined: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
         for index in table.of(&[Kind::ShapeRepresentationRelationship, Kind::RepresentationRelationship]) {
             let mut attributes = table.attributes(index).after(2);
@@ -39,12 +60,30 @@ impl Representations {
                 joined.entry(second).or_default().push(first);
             }
         }
-        Self { by_index, in_order, joined }
+        Self {
+            by_index,
+            in_order,
+            listed,
+            joined,
+            attachments: attachments(table),
+            claimed: FxHashSet::default(),
+            of_pair: FxHashMap::default(),
+        }
     }
 
     /// The representation, if the entity is one that may hold a shape.
     pub fn get(&self, index: usize) -> Option<&Representation> {
         self.by_index.get(&index)
+    }
+
+    /// A slice of just this representation.
+    pub fn own_index(&self, index: usize) -> &[usize] {
+        self.in_order.binary_search(&index).map_or(&[], |place| &self.in_order[place..=place])
+    }
+
+    /// Whether a representation lists a placement among its items.
+    pub fn lists(&self, representation: usize, item: usize) -> bool {
+        self.listed.contains(&(representation, item))
     }
 
     /// All of them, in file order.
@@ -55,6 +94,42 @@ impl Representations {
     /// The units of a representation's numbers.
     pub fn units(&self, index: usize, units: &UnitTable) -> Units {
         units.of_context(self.get(index).and_then(|representation| representation.context))
+    }
+
+    /// The placing relationships that no use of a product has claimed, in file order.
+    pub fn attachments(&self) -> impl Iterator<Item = &Attachment> {
+        self.attachments.iter().filter(|held| !self.claimed.contains(&held.relationship))
+    }
+
+    /// Claims a placing relationship for a use of a product.
+    pub fn claim(&mut self, relationship: usize) {
+        self.claimed.insert(relationship);
+    }
+
+    /// Sorts the relationships that are left by what they join; to be called once all direct claims are made.
+    pub fn sort_attachments(&mut self) {
+        for held in &self.attachments {
+            if !self.claimed.contains(&held.relationship) {
+                self.of_pair.entry((held.first, held.second)).or_default().push_back(held.relationship);
+            }
+        }
+    }
+
+    /// Claims the first placing relationship between representations of an assembly and of its component.
+    pub fn claim_between(&mut self, assembly: &[usize], component: &[usize]) -> Option<usize> {
+        const MOST: usize = 16;
+        for &a in assembly.iter().take(MOST) {
+            for &b in component.iter().take(MOST) {
+                for pair in [(b, a), (a, b)] {
+                    let held = self.of_pair.get_mut(&pair).and_then(|held| held.pop_front());
+                    if held.is_some() {
+                        self.claimed.extend(held);
+                        return held;
+                    }
+                }
+            }
+        }
+        None
     }
 
     /// `first` and whatever is joined with it, without entering those that `foreign` names.
@@ -73,6 +148,16 @@ impl Representations {
     }
 }
 
+fn attachments(table: &Table<'_>) -> Vec<Attachment> {
+    let relationships = table.of(&[Kind::RepresentationRelationshipWithTransformation]);
+    let attachments = relationships.filter_map(|relationship| {
+        let mut attributes = table.attributes(relationship).after(2);
+        let (first, second) = (attributes.optional_reference()?, attributes.optional_reference()?);
+        Some(Attachment { relationship, first, second })
+    });
+    attachments.collect()
+}
+
 fn read(table: &Table<'_>, index: usize) -> Representation {
     let mut attributes = table.attributes(index);
     Representation {
@@ -80,6 +165,10 @@ fn read(table: &Table<'_>, index: usize) -> Representation {
         items: attributes.found_references(),
         context: attributes.optional_reference(),
     }
+}
+
+fn is_placement(kind: Kind) -> bool {
+    matches!(kind, Kind::Axis2Placement3d | Kind::Axis2Placement2d | Kind::Axis1Placement)
 }
 
 /// Whether a representation may hold the shape of a product. Drawings, presentations and construction geometry

@@ -3,6 +3,7 @@
 use rustc_hash::FxHashMap;
 use trimloop_brep::Rgba;
 
+use super::body::is_face;
 use super::keyword::Kind;
 use super::look::Look;
 use super::table::Table;
@@ -33,14 +34,25 @@ impl Looks {
         self.by_entity.get(&index).copied().unwrap_or_default()
     }
 
-    /// Adds the styles of one styled item: to its item, or to the context that a style names.
+    /// Adds the styles of one styled item: to its item, or to the use of a product that they are limited to.
     fn add(&mut self, styles: &mut Styles<'_>, index: usize) {
-        let mut attributes = styles.table.attributes(index).after(1);
+        let table = styles.table;
+        let mut attributes = table.attributes(index).after(1);
         let assigned = attributes.found_references();
         let Some(item) = attributes.optional_reference() else { return };
+        let limited_to = if table.kind(index) == Kind::ContextDependentOverRidingStyledItem {
+            // A colour for a single face in a single use has no place in the model: the face keeps its own.
+            if is_face(table.kind(item)) {
+                return;
+            }
+            attributes.skip(1);
+            attributes.found_references().into_iter().find(|&context| is_use(table.kind(context)))
+        } else {
+            None
+        };
         for style in assigned {
             let (look, context) = styles.assignment(style);
-            let target = self.by_entity.entry(context.unwrap_or(item)).or_default();
+            let target = self.by_entity.entry(limited_to.or(context).unwrap_or(item)).or_default();
             *target = look.over(*target);
         }
     }
@@ -79,6 +91,11 @@ pub(crate) fn styled_item_target(table: &Table<'_>, index: usize) -> usize {
     }
 }
 
+/// Whether an entity stands for one use of a product.
+fn is_use(kind: Kind) -> bool {
+    matches!(kind, Kind::ContextDependentShapeRepresentation | Kind::NextAssemblyUsageOccurrence)
+}
+
 /// Reads style assignments, each once.
 struct Styles<'t> {
     table: &'t Table<'t>,
@@ -86,7 +103,7 @@ struct Styles<'t> {
 }
 
 impl Styles<'_> {
-    /// A `presentation_style_assignment`, and the context it is limited to.
+    /// A `presentation_style_assignment`, and the use of a product that it is limited to.
     fn assignment(&mut self, index: usize) -> (Look, Option<usize>) {
         if let Some(&known) = self.known.get(&index) {
             return known;
@@ -102,7 +119,7 @@ impl Styles<'_> {
                 self.add_style(style, &mut look);
             }
             if self.table.kind(index) == Kind::PresentationStyleByContext {
-                context = attributes.optional_reference();
+                context = attributes.optional_reference().filter(|&context| is_use(self.table.kind(context)));
             }
         } else {
             self.add_style(index, &mut look);

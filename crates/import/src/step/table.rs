@@ -75,55 +75,61 @@ impl<'a> Table<'a> {
 
 /// Keywords met so far, with their kind and count.
 struct Census<'a> {
-    known: FxHashMap<&'a str, (Kind, usize)>,
-    complex: FxHashMap<String, usize>,
+    place_of: FxHashMap<&'a str, usize>,
+    met: Vec<(&'a str, Kind, usize)>,
+    complex: FxHashMap<&'a str, usize>,
 }
 
 impl<'a> Census<'a> {
     fn new() -> Self {
         Self {
-            known: KEYWORDS.iter().map(|&(keyword, kind)| (keyword, (kind, 0))).collect(),
+            place_of: KEYWORDS.iter().enumerate().map(|(place, &(keyword, _))| (keyword, place)).collect(),
+            met: KEYWORDS.iter().map(|&(keyword, kind)| (keyword, kind, 0)).collect(),
             complex: FxHashMap::default(),
         }
     }
 
     fn admit(&mut self, instance: &Instance<'a>) -> Kind {
         if instance.is_complex() {
-            self.admit_complex(instance)
-        } else {
-            let entry = self.look_up(instance.keyword());
-            entry.1 += 1;
-            entry.0
+            return self.admit_complex(instance);
         }
+        let place = self.place(instance.keyword());
+        let met = &mut self.met[place];
+        met.2 += 1;
+        met.1
     }
 
-    fn look_up(&mut self, keyword: &'a str) -> &mut (Kind, usize) {
-        if !self.known.contains_key(keyword) {
-            let kind =
-                self.known.get(keyword.to_ascii_uppercase().as_str()).map_or(Kind::Other, |known| known.0);
-            self.known.insert(keyword, (kind, 0));
+    /// The place of a keyword in `met`; keywords in lower case have the kind of those in upper case.
+    fn place(&mut self, keyword: &'a str) -> usize {
+        if let Some(&place) = self.place_of.get(keyword) {
+            return place;
         }
-        self.known.get_mut(keyword).expect("inserted above")
+        let upper = self.place_of.get(keyword.to_ascii_uppercase().as_str());
+        let kind = upper.map_or(Kind::Other, |&place| self.met[place].1);
+        self.met.push((keyword, kind, 0));
+        self.place_of.insert(keyword, self.met.len() - 1);
+        self.met.len() - 1
     }
 
     fn admit_complex(&mut self, instance: &Instance<'a>) -> Kind {
-        let kind = instance
-            .parts()
-            .map(|(keyword, _)| self.look_up(keyword).0)
-            .filter(|&kind| kind != Kind::Other)
-            .min_by_key(|&kind| kind as u8)
-            .unwrap_or(Kind::Other);
+        let mut kind = Kind::Other;
+        for (keyword, _) in instance.parts() {
+            let place = self.place(keyword);
+            let found = self.met[place].1;
+            if found != Kind::Other && (kind == Kind::Other || (found as u8) < kind as u8) {
+                kind = found;
+            }
+        }
         let name = if kind == Kind::Other { instance.keyword() } else { kind.keyword() };
-        *self.complex.entry(name.to_owned()).or_default() += 1;
+        *self.complex.entry(name).or_default() += 1;
         kind
     }
 
     fn counts(self) -> Vec<(String, usize)> {
-        let mut counts = self.complex;
-        for (keyword, (_, count)) in self.known {
-            if count > 0 {
-                *counts.entry(keyword.to_ascii_uppercase()).or_default() += count;
-            }
+        let mut counts: FxHashMap<String, usize> = FxHashMap::default();
+        let simple = self.met.into_iter().map(|(keyword, _, count)| (keyword, count));
+        for (keyword, count) in simple.chain(self.complex).filter(|&(_, count)| count > 0) {
+            *counts.entry(keyword.to_ascii_uppercase()).or_default() += count;
         }
         let mut counts: Vec<_> = counts.into_iter().collect();
         counts.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
