@@ -134,11 +134,12 @@ fn number_sign(input: &[u8]) -> Parsed<'_, u64> {
 #[inline(always)]
 pub(crate) fn instance_number(input: &[u8]) -> Parsed<'_, u64> {
     let (rest, digits) = digit1.parse(input)?;
-    let add = |id: u64, digit: &u8| id.checked_mul(10)?.checked_add(u64::from(digit - b'0'));
-    match digits.iter().try_fold(0, add) {
-        Some(id) => Ok((rest, id)),
-        None => Fault::at(input, "an instance number does not fit into 64 bits"),
+    let value = |digit: &u8| u64::from(digit - b'0');
+    if digits.len() <= 19 {
+        return Ok((rest, digits.iter().fold(0, |id, digit| 10 * id + value(digit))));
     }
+    let id = digits.iter().try_fold(0u64, |id, digit| id.checked_mul(10)?.checked_add(value(digit)));
+    id.map_or_else(|| Fault::at(input, "an instance number does not fit into 64 bits"), |id| Ok((rest, id)))
 }
 
 /// `@12`, `@NAME`, `#NAME` of edition 3.

@@ -95,6 +95,10 @@ impl<'a> Walk<'a> {
             Section::Anchor if rest[0] != b'#' => self.anchor(),
             Section::Reference => self.reference(),
             Section::Data => self.record(),
+            Section::Outside if rest[0] != b'#' => {
+                self.damage(self.scanner.at, "something that belongs to no section");
+                self.scanner.statement();
+            }
             _ => {
                 self.damage(self.scanner.at, "an instance outside a DATA section");
                 self.open_data(String::new(), Vec::new());
@@ -187,6 +191,9 @@ impl<'a> Walk<'a> {
     }
 
     fn section_start(&mut self, word: &str, length: usize) {
+        if self.section != Section::Outside && word != "ENDSEC" {
+            self.damage(self.scanner.at, "ENDSEC is missing before this");
+        }
         self.scanner.at += length;
         match word {
             "HEADER" => self.section = Section::Header,

@@ -130,7 +130,16 @@ fn sections_without_their_end() {
     let text = "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('S'));\nDATA;\n#1=A();\nEND-ISO-10303-21;\n";
     let exchange = Exchange::parse(text.into()).unwrap();
     assert_eq!((exchange.len(), exchange.header().schemas.len()), (1, 1));
-    assert_eq!(exchange.errors().len(), 1, "{:?}", exchange.errors());
+    let lines: Vec<_> = exchange.errors().iter().map(|error| error.position.line).collect();
+    assert_eq!(lines, [4, 6], "{:?}", exchange.errors());
+    assert!(exchange.errors().iter().all(|error| error.message.contains("ENDSEC is missing")));
+}
+
+#[test]
+fn text_between_sections_is_passed_over() {
+    let text = "ISO-10303-21;\nHEADER;\nENDSEC;\nwhatever;\nDATA;\n#1=A();\nENDSEC;\nEND-ISO-10303-21;\n";
+    let exchange = Exchange::parse(text.into()).unwrap();
+    assert_eq!((exchange.len(), exchange.errors().len(), exchange.sections().len()), (1, 1, 1));
 }
 
 #[test]
