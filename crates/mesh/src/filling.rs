@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use trimloop_geom::Surface;
-use trimloop_trim::{EdgeSamples, Tolerance, TrimDomain};
+use trimloop_trim::{EdgeSamples, Tolerance, TrimDomain, TrimVertex};
 
 use crate::draft::DraftVertex;
 use crate::seeds::seeds;
@@ -36,6 +36,8 @@ struct SiteInSpace {
     /// From the surface to `position`: where the model's edges lie off the surface, its triangles cannot keep to it.
     lift: DVec3,
     normal: DVec3,
+    /// Whether it is one of several sites for a single point: a pole, where the normal is whatever one likes.
+    pole: bool,
 }
 
 impl SiteInSpace {
@@ -45,7 +47,7 @@ impl SiteInSpace {
 }
 
 /// Rounds of refinement; each halves what is still too long.
-const MAX_ROUNDS: usize = 10;
+const MAX_ROUNDS: usize = 16;
 
 impl<'a> Filling<'a> {
     /// The first triangulation of `domain`. `None` when its coordinates are unusable.
@@ -85,14 +87,26 @@ impl<'a> Filling<'a> {
     }
 
     fn place_corners(&mut self, domain: &TrimDomain, samples: &EdgeSamples) {
-        let corners = domain.loops.iter().flat_map(|l| &l.vertices);
+        let corners = domain.loops.iter().flat_map(|l| {
+            let before = l.vertices.iter().cycle().skip(l.vertices.len() - 1);
+            let after = l.vertices.iter().cycle().skip(1);
+            let same = |a: &TrimVertex, b: &TrimVertex| a.point == b.point && a.uv != b.uv;
+            l.vertices.iter().zip(before.zip(after)).map(move |(v, (a, b))| (v, same(v, a) || same(v, b)))
+        });
         let sites = std::mem::take(&mut self.triangulation.site_of_corner);
-        for (corner, &site) in corners.zip(&sites) {
+        for ((corner, pole), &site) in corners.zip(&sites) {
             if site as usize == self.sites.len() {
                 let position = domain.point(corner, samples);
                 let normal = self.normal(corner.uv);
                 let lift = position - self.surface.point(corner.uv);
-                self.sites.push(SiteInSpace { uv: corner.uv, point: corner.point, position, lift, normal });
+                self.sites.push(SiteInSpace {
+                    uv: corner.uv,
+                    point: corner.point,
+                    position,
+                    lift,
+                    normal,
+                    pole,
+                });
             } else if self.sites[site as usize].point != corner.point {
                 self.merged = true;
             }
@@ -103,7 +117,14 @@ impl<'a> Filling<'a> {
     fn place_inner(&mut self, uv: DVec2) {
         let position = self.surface.point(uv);
         let normal = self.normal(uv);
-        self.sites.push(SiteInSpace { uv, point: self.next_point, position, lift: DVec3::ZERO, normal });
+        self.sites.push(SiteInSpace {
+            uv,
+            point: self.next_point,
+            position,
+            lift: DVec3::ZERO,
+            normal,
+            pole: false,
+        });
         self.next_point += 1;
     }
 
@@ -179,12 +200,17 @@ impl<'a> Filling<'a> {
         let length = sa.position.distance(sb.position);
         let at = (self.triangulation.at(a) + self.triangulation.at(b)) * 0.5;
         let off = self.off_surface(at, (sa.on_surface() + sb.on_surface()) * 0.5);
-        // A chord between two turned normals bulges at least by their angle's share: cheaper than the angle itself.
-        let turned = sa.normal.dot(sb.normal) < (self.tolerance.angular_rad * 1.001).cos()
+        let turned = !(sa.pole || sb.pole)
+            && sa.normal.dot(sb.normal) < (self.tolerance.angular_rad * 1.001).cos()
             && sa.normal != DVec3::ZERO
             && sb.normal != DVec3::ZERO;
-        let split = off > self.tolerance.linear_mm || (turned && length > self.tolerance.shortest_chord_mm());
+        let split = off > self.tolerance.linear_mm || (turned && length > self.shortest_turn_mm());
         (split.then_some(at), off)
+    }
+
+    /// Chords below this are not split for the angle's sake: a crease inside a surface would split for ever.
+    fn shortest_turn_mm(&self) -> f64 {
+        self.tolerance.linear_mm * 0.1
     }
 
     fn triangle_violation(&self, t: [u32; 3]) -> (Option<DVec2>, f64) {

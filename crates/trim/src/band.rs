@@ -5,7 +5,7 @@ use trimloop_brep::{Diagnostic, EntityRef, Severity};
 use trimloop_geom::{Direction, Interval, Surface};
 
 use crate::polygon::{contains, segments_cross, signed_area};
-use crate::unroll::UnrolledLoop;
+use crate::unroll::{UnrolledLoop, pole_pieces};
 use crate::{Tolerance, TrimDomain, TrimError, TrimLoop, TrimVertex, cut};
 
 /// A surface with the tolerance that lines on it are sampled by.
@@ -330,7 +330,10 @@ fn end_side(plane: &Turned<'_>, foot: DVec2, is_pole: bool, domain: &mut TrimDom
     let point = plane.chart.surface.point(plane.to_uv(foot));
     let first = domain.add_point(point);
     if is_pole {
-        return (0..=24).map(|k| TrimVertex { uv: foot.lerp(to, k as f64 / 24.0), point: first }).collect();
+        let n = pole_pieces(1.0, plane.chart.tolerance.angular_rad);
+        return (0..=n)
+            .map(|k| TrimVertex { uv: foot.lerp(to, k as f64 / n as f64), point: first })
+            .collect();
     }
     let mut out = vec![TrimVertex { uv: foot, point: first }];
     out.extend(cut_points(plane, foot, to, domain));
@@ -503,7 +506,10 @@ fn side(chart: &Chart<'_>, from: DVec2, to: DVec2, at_pole: u32, domain: &mut Tr
         s.constant == constant && (s.at - at).abs() <= 1e-9 * reach
     });
     if is_pole {
-        return (1..24).map(|k| TrimVertex { uv: from.lerp(to, k as f64 / 24.0), point: at_pole }).collect();
+        let n = pole_pieces(1.0, chart.tolerance.angular_rad);
+        return (1..n)
+            .map(|k| TrimVertex { uv: from.lerp(to, k as f64 / n as f64), point: at_pole })
+            .collect();
     }
     let line: Vec<(DVec2, DVec3)> = cut::line(chart, from, to);
     line.into_iter().map(|(uv, p)| TrimVertex { uv, point: domain.add_point(p) }).collect()

@@ -85,7 +85,7 @@ impl TrimDomain {
     ) -> Result<Self, TrimError> {
         let face_ref = &part.faces[face as usize];
         let FaceGeometry::Surface(surface) = &face_ref.geometry else { return Err(TrimError::NoSurface) };
-        let loops = unroll_loops(part, face, samples, surface)?;
+        let loops = unroll_loops(part, face, samples, surface, tolerance.clamped())?;
         let base = samples.points.len() as u32;
         let mut domain = Self { own_base: base, ..Self::default() };
         let chart = Chart { surface, tolerance: tolerance.clamped() };
@@ -148,11 +148,12 @@ fn unroll_loops(
     face: FaceId,
     samples: &EdgeSamples,
     surface: &Surface,
+    tolerance: Tolerance,
 ) -> Result<Vec<UnrolledLoop>, TrimError> {
     let face_ref = &part.faces[face as usize];
     let mut loops = Vec::new();
     for l in face_ref.loops.iter().filter(|l| !l.coedges.is_empty()) {
-        let unrolled = unroll(l, face, !face_ref.same_sense, samples, surface)?;
+        let unrolled = unroll(l, face, !face_ref.same_sense, samples, surface, tolerance.angular_rad)?;
         if unrolled.vertices.len() > 1 {
             loops.push(unrolled);
         }

@@ -31,6 +31,7 @@ pub(crate) fn unroll(
     reverse: bool,
     samples: &EdgeSamples,
     surface: &Surface,
+    angular_rad: f64,
 ) -> Result<UnrolledLoop, TrimError> {
     let mut raw = gather(l, face, samples)?;
     if reverse {
@@ -43,7 +44,13 @@ pub(crate) fn unroll(
     if let Some(first) = raw.iter().position(|r| r.singular.is_none()) {
         raw.rotate_left(first);
     }
-    Ok(Unroller { periods, singularities: &singularities, out: Vec::with_capacity(raw.len() + 4) }.run(&raw))
+    Ok(Unroller {
+        periods,
+        singularities: &singularities,
+        angular_rad,
+        out: Vec::with_capacity(raw.len() + 4),
+    }
+    .run(&raw))
 }
 
 fn gather(l: &Loop, face: FaceId, samples: &EdgeSamples) -> Result<Vec<Raw>, TrimError> {
@@ -77,6 +84,7 @@ fn gather(l: &Loop, face: FaceId, samples: &EdgeSamples) -> Result<Vec<Raw>, Tri
 struct Unroller<'a> {
     periods: [Option<f64>; 2],
     singularities: &'a [Singularity],
+    angular_rad: f64,
     out: Vec<TrimVertex>,
 }
 
@@ -130,7 +138,7 @@ impl Unroller<'_> {
             Some(p) => pole_step(next_a - from_a, p, upper),
             None => next_a - from_a,
         };
-        let pieces = period.map_or(8, |p| (step.abs() / p * 24.0).ceil().max(1.0) as usize);
+        let pieces = period.map_or(8, |p| pole_pieces(step / p, self.angular_rad));
         let point = |k: usize| run[(k * run.len() / (pieces + 1)).min(run.len() - 1)].point;
         for k in 0..=pieces {
             let a = from_a + step * k as f64 / pieces as f64;
@@ -138,6 +146,11 @@ impl Unroller<'_> {
         }
         along * (from_a + step) + across * from_b
     }
+}
+
+/// Into how many pieces `turns` of a pole's side are cut: each at most 15 degrees and the angular bound.
+pub(crate) fn pole_pieces(turns: f64, angular_rad: f64) -> usize {
+    (turns.abs() * (std::f64::consts::TAU / angular_rad).clamp(24.0, 360.0)).ceil().max(1.0) as usize
 }
 
 /// How far the loop runs along a pole's side: leftwards on an upper side, rightwards on a lower one, and a whole period
