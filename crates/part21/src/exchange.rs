@@ -202,8 +202,11 @@ fn decoded(source: Source) -> Source {
 /// Where the first statement starts, if these bytes can be an exchange file at all.
 fn text_start(text: &[u8]) -> Result<usize, ReadError> {
     let head = &text[..text.len().min(MAGIC_WITHIN)];
-    if text.iter().all(|&byte| byte <= b' ') {
+    if text.is_empty() {
         return Err(ReadError::NotPart21("the file is empty".into()));
+    }
+    if text.iter().all(|&byte| byte <= b' ') {
+        return Err(ReadError::NotPart21("the file is empty but for blanks or zeros".into()));
     }
     if let Some(start) = memchr::memmem::find(head, MAGIC) {
         return Ok(start);

@@ -26,11 +26,17 @@ pub(crate) fn open(path: &Path, options: &ReadOptions) -> Result<Source, ReadErr
 /// Reads to the end, or to the cap and fails; no size that is declared anywhere is trusted.
 pub(crate) fn read_capped(reader: impl Read, cap: u64) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
-    reader.take(cap.saturating_add(1)).read_to_end(&mut bytes)?;
+    append_capped(&mut bytes, reader, cap)?;
+    Ok(bytes)
+}
+
+/// As [`read_capped`], but what was read before an error is there.
+pub(crate) fn append_capped(bytes: &mut Vec<u8>, reader: impl Read, cap: u64) -> Result<(), ReadError> {
+    reader.take(cap.saturating_add(1)).read_to_end(bytes)?;
     if bytes.len() as u64 > cap {
         return Err(ReadError::TooLarge { cap });
     }
-    Ok(bytes)
+    Ok(())
 }
 
 #[cfg(feature = "mmap")]
