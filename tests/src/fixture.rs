@@ -34,6 +34,14 @@ pub struct Reference {
     /// Each face once.
     #[serde(default)]
     pub face_areas_mm2: Vec<FaceReference>,
+    /// Centroid of the area.
+    pub area_centroid_mm: Option<[f64; 3]>,
+    /// The assembly tree.
+    #[serde(default)]
+    pub tree: Vec<TreeReference>,
+    /// Each part once.
+    #[serde(default)]
+    pub parts: Vec<PartReference>,
     /// Area by colour (`#rrggbbaa`, sRGB; `none` where there is none).
     #[serde(default)]
     pub colours: BTreeMap<String, f64>,
@@ -46,6 +54,25 @@ pub struct FaceReference {
     pub entity: String,
     /// Its area.
     pub area_mm2: f64,
+}
+
+/// What is true of a node of the assembly tree.
+#[derive(Clone, Debug, Deserialize)]
+pub struct TreeReference {
+    /// The product's name.
+    pub name: String,
+    /// The nodes below.
+    #[serde(default)]
+    pub children: Vec<Self>,
+}
+
+/// What is true of a part.
+#[derive(Clone, Debug, Deserialize)]
+pub struct PartReference {
+    /// The product's name.
+    pub name: String,
+    /// How often it is placed.
+    pub instances: usize,
 }
 
 impl Fixture {

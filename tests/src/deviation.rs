@@ -1,0 +1,152 @@
+//! How far triangles are from the exact surfaces, and their normals from the exact ones: measured by projecting
+//! samples onto the surfaces, with none of the mesher's own bounds.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use trimloop_brep::{Face, FaceGeometry, Model, Part};
+use trimloop_geom::{Surface, SurfacePoint};
+use trimloop_mesh::{FaceMesh, FaceStatus, PartMesh};
+
+/// The worst that was found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Deviation {
+    /// Faces that were looked at.
+    pub faces: usize,
+    /// Samples that were taken.
+    pub samples: usize,
+    /// The largest distance from the exact surface, as a share of the deflection that was asked for.
+    pub distance_share: f64,
+    /// The largest angle between a vertex's normal and the exact one there.
+    pub vertex_normal_rad: f64,
+    /// The largest angle between a triangle's interpolated normals and the exact ones.
+    pub shading_normal_rad: f64,
+    /// The largest angle between a triangle and the exact normals over it.
+    pub triangle_normal_rad: f64,
+}
+
+impl Deviation {
+    /// The worst of both.
+    pub fn max(self, other: Self) -> Self {
+        Self {
+            faces: self.faces + other.faces,
+            samples: self.samples + other.samples,
+            distance_share: self.distance_share.max(other.distance_share),
+            vertex_normal_rad: self.vertex_normal_rad.max(other.vertex_normal_rad),
+            shading_normal_rad: self.shading_normal_rad.max(other.shading_normal_rad),
+            triangle_normal_rad: self.triangle_normal_rad.max(other.triangle_normal_rad),
+        }
+    }
+}
+
+/// The deviation of every face that claims to be exact, by the kind of its surface.
+///
+/// `density` is the number of steps along a triangle's sides: 1 looks at the corners, 4 at 15 points.
+pub fn by_surface(model: &Model, meshes: &[PartMesh], density: usize) -> BTreeMap<&'static str, Deviation> {
+    let mut table = BTreeMap::<_, Deviation>::new();
+    for (part, mesh) in model.parts.iter().zip(meshes) {
+        for (kind, deviation) in of_part(part, mesh, density) {
+            let worst = table.entry(kind).or_default();
+            *worst = worst.max(deviation);
+        }
+    }
+    table
+}
+
+fn of_part(part: &Part, mesh: &PartMesh, density: usize) -> Vec<(&'static str, Deviation)> {
+    let reversed = reversed_faces(part);
+    let faces: Vec<_> = part.faces.iter().zip(&mesh.faces).zip(reversed).collect();
+    faces
+        .into_par_iter()
+        .filter(|((_, face_mesh), _)| face_mesh.status == FaceStatus::Exact)
+        .filter_map(|((face, face_mesh), reversed)| {
+            let FaceGeometry::Surface(surface) = &face.geometry else { return None };
+            Some((surface.kind(), of_face(face, surface, reversed, face_mesh, mesh, density)))
+        })
+        .collect()
+}
+
+/// For each face whether its shell uses it backwards.
+fn reversed_faces(part: &Part) -> Vec<bool> {
+    let mut reversed = vec![false; part.faces.len()];
+    for used in part.bodies.iter().flat_map(|body| &body.shells).flat_map(|shell| &shell.faces) {
+        reversed[used.face as usize] = used.reversed;
+    }
+    reversed
+}
+
+fn of_face(
+    face: &Face,
+    surface: &Surface,
+    reversed: bool,
+    face_mesh: &FaceMesh,
+    mesh: &PartMesh,
+    density: usize,
+) -> Deviation {
+    let exact = Exact {
+        surface,
+        side: if face.same_sense == reversed { -1.0 } else { 1.0 },
+        near_mm: 0.1 * mesh.linear_deflection_mm,
+    };
+    let mut worst = Deviation { faces: 1, ..Deviation::default() };
+    for triangle in &face_mesh.triangles {
+        let corners = triangle.map(|i| face_mesh.vertices[i as usize]);
+        let points = corners.map(|v| mesh.positions[v.position as usize]);
+        let across = (points[1] - points[0]).cross(points[2] - points[0]);
+        // A sliver has no direction to speak of.
+        let longest = (0..3).map(|i| points[i].distance(points[(i + 1) % 3])).fold(0.0, f64::max);
+        let facing = (across.length() > 1e-4 * longest * longest).then(|| across.normalize());
+        for weights in samples(density) {
+            let at_corner = weights.max_element() > 1.0 - 1e-9;
+            let blend = |v: [DVec3; 3]| v[0] * weights.x + v[1] * weights.y + v[2] * weights.z;
+            let uv = corners[0].uv * weights.x + corners[1].uv * weights.y + corners[2].uv * weights.z;
+            let foot = exact.foot(blend(points), uv);
+            worst.samples += 1;
+            worst.distance_share = worst.distance_share.max(foot.distance / mesh.linear_deflection_mm);
+            let Some(normal) = exact.normal(foot.uv) else { continue };
+            let shading = blend(corners.map(|v| v.normal)).normalize_or(normal);
+            let angle = shading.angle_between(normal);
+            if at_corner {
+                worst.vertex_normal_rad = worst.vertex_normal_rad.max(angle);
+            } else {
+                worst.shading_normal_rad = worst.shading_normal_rad.max(angle);
+            }
+            if let Some(facing) = facing {
+                worst.triangle_normal_rad = worst.triangle_normal_rad.max(facing.angle_between(normal));
+            }
+        }
+    }
+    worst
+}
+
+/// The exact side of a face.
+struct Exact<'a> {
+    surface: &'a Surface,
+    side: f64,
+    near_mm: f64,
+}
+
+impl Exact<'_> {
+    /// The nearest point of the surface: from `uv`, and from nowhere in particular where that is not near.
+    fn foot(&self, point: DVec3, uv: DVec2) -> SurfacePoint {
+        let near = self.surface.project(point, Some(uv));
+        if near.distance <= self.near_mm {
+            return near;
+        }
+        let anywhere = self.surface.project(point, None);
+        if anywhere.distance < near.distance { anywhere } else { near }
+    }
+
+    fn normal(&self, uv: DVec2) -> Option<DVec3> {
+        Some(self.surface.normal(uv)? * self.side)
+    }
+}
+
+/// Barycentric coordinates of a triangular grid.
+fn samples(density: usize) -> impl Iterator<Item = DVec3> {
+    let step = move |i: usize| i as f64 / density as f64;
+    (0..=density).flat_map(move |i| {
+        (0..=density - i).map(move |j| DVec3::new(step(i), step(j), step(density - i - j)))
+    })
+}
