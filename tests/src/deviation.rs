@@ -1,13 +1,16 @@
 //! How far triangles are from the exact surfaces, and their normals from the exact ones: measured by projecting
 //! samples onto the surfaces, with none of the mesher's own bounds.
+//!
+//! Which of a face's two sides is the outer one is taken from its first triangle: files are wrong about it, and that
+//! closed shells face outward shows in their volume.
 
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use trimloop_brep::{Face, FaceGeometry, Model, Part};
+use trimloop_brep::{FaceGeometry, Model, Part};
 use trimloop_geom::{Surface, SurfacePoint};
-use trimloop_mesh::{FaceMesh, FaceStatus, PartMesh};
+use trimloop_mesh::{FaceMesh, FaceStatus, FaceVertex, PartMesh};
 
 /// The worst that was found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -55,69 +58,50 @@ pub fn by_surface(model: &Model, meshes: &[PartMesh], density: usize) -> BTreeMa
 }
 
 fn of_part(part: &Part, mesh: &PartMesh, density: usize) -> Vec<(&'static str, Deviation)> {
-    let reversed = reversed_faces(part);
-    let faces: Vec<_> = part.faces.iter().zip(&mesh.faces).zip(reversed).collect();
+    let faces: Vec<_> = part.faces.iter().zip(&mesh.faces).collect();
     faces
         .into_par_iter()
-        .filter(|((_, face_mesh), _)| face_mesh.status == FaceStatus::Exact)
-        .filter_map(|((face, face_mesh), reversed)| {
+        .filter(|(_, face_mesh)| face_mesh.status == FaceStatus::Exact)
+        .filter_map(|(face, face_mesh)| {
             let FaceGeometry::Surface(surface) = &face.geometry else { return None };
-            Some((surface.kind(), of_face(face, surface, reversed, face_mesh, mesh, density)))
+            Some((surface.kind(), of_face(surface, face_mesh, mesh, density)))
         })
         .collect()
 }
 
-/// For each face whether its shell uses it backwards.
-fn reversed_faces(part: &Part) -> Vec<bool> {
-    let mut reversed = vec![false; part.faces.len()];
-    for used in part.bodies.iter().flat_map(|body| &body.shells).flat_map(|shell| &shell.faces) {
-        reversed[used.face as usize] = used.reversed;
-    }
-    reversed
-}
-
-fn of_face(
-    face: &Face,
-    surface: &Surface,
-    reversed: bool,
-    face_mesh: &FaceMesh,
-    mesh: &PartMesh,
-    density: usize,
-) -> Deviation {
-    let exact = Exact {
-        surface,
-        side: if face.same_sense == reversed { -1.0 } else { 1.0 },
-        near_mm: 0.1 * mesh.linear_deflection_mm,
-    };
+fn of_face(surface: &Surface, face_mesh: &FaceMesh, mesh: &PartMesh, density: usize) -> Deviation {
     let mut worst = Deviation { faces: 1, ..Deviation::default() };
+    let corners = |triangle: &[u32; 3]| triangle.map(|i| face_mesh.vertices[i as usize]);
+    let Some(first) = face_mesh.triangles.first().map(corners) else { return worst };
+    let exact = Exact::new(surface, first, mesh);
     for triangle in &face_mesh.triangles {
-        let corners = triangle.map(|i| face_mesh.vertices[i as usize]);
+        let corners = corners(triangle);
         let points = corners.map(|v| mesh.positions[v.position as usize]);
-        let across = (points[1] - points[0]).cross(points[2] - points[0]);
-        // A sliver has no direction to speak of.
-        let longest = (0..3).map(|i| points[i].distance(points[(i + 1) % 3])).fold(0.0, f64::max);
-        let facing = (across.length() > 1e-4 * longest * longest).then(|| across.normalize());
+        let facing = facing(points);
         for weights in samples(density) {
-            let at_corner = weights.max_element() > 1.0 - 1e-9;
             let blend = |v: [DVec3; 3]| v[0] * weights.x + v[1] * weights.y + v[2] * weights.z;
             let uv = corners[0].uv * weights.x + corners[1].uv * weights.y + corners[2].uv * weights.z;
             let foot = exact.foot(blend(points), uv);
             worst.samples += 1;
             worst.distance_share = worst.distance_share.max(foot.distance / mesh.linear_deflection_mm);
             let Some(normal) = exact.normal(foot.uv) else { continue };
-            let shading = blend(corners.map(|v| v.normal)).normalize_or(normal);
-            let angle = shading.angle_between(normal);
-            if at_corner {
-                worst.vertex_normal_rad = worst.vertex_normal_rad.max(angle);
-            } else {
-                worst.shading_normal_rad = worst.shading_normal_rad.max(angle);
-            }
+            let shading = blend(corners.map(|v| v.normal)).angle_between(normal);
+            let at_corner = weights.max_element() > 1.0 - 1e-9;
+            let angle = if at_corner { &mut worst.vertex_normal_rad } else { &mut worst.shading_normal_rad };
+            *angle = angle.max(shading);
             if let Some(facing) = facing {
                 worst.triangle_normal_rad = worst.triangle_normal_rad.max(facing.angle_between(normal));
             }
         }
     }
     worst
+}
+
+/// The unit normal of a triangle; a sliver has none to speak of.
+fn facing(points: [DVec3; 3]) -> Option<DVec3> {
+    let across = (points[1] - points[0]).cross(points[2] - points[0]);
+    let longest = (0..3).map(|i| points[i].distance(points[(i + 1) % 3])).fold(0.0, f64::max);
+    (across.length() > 1e-4 * longest * longest).then(|| across.normalize())
 }
 
 /// The exact side of a face.
@@ -127,7 +111,13 @@ struct Exact<'a> {
     near_mm: f64,
 }
 
-impl Exact<'_> {
+impl<'a> Exact<'a> {
+    fn new(surface: &'a Surface, first: [FaceVertex; 3], mesh: &PartMesh) -> Self {
+        let agrees = |v: &FaceVertex| surface.normal(v.uv).map_or(0.0, |normal| normal.dot(v.normal));
+        let side = first.iter().map(agrees).sum::<f64>().signum();
+        Self { surface, side, near_mm: 0.1 * mesh.linear_deflection_mm }
+    }
+
     /// The nearest point of the surface: from `uv`, and from nowhere in particular where that is not near.
     fn foot(&self, point: DVec3, uv: DVec2) -> SurfacePoint {
         let near = self.surface.project(point, Some(uv));

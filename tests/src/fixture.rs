@@ -34,8 +34,8 @@ pub struct Reference {
     /// Each face once.
     #[serde(default)]
     pub face_areas_mm2: Vec<FaceReference>,
-    /// Centroid of the area.
-    pub area_centroid_mm: Option<[f64; 3]>,
+    /// Centroid of the area; of no area there is none.
+    pub area_centroid_mm: Option<[Option<f64>; 3]>,
     /// The assembly tree.
     #[serde(default)]
     pub tree: Vec<TreeReference>,

@@ -96,7 +96,7 @@ fn boxes_and_centroids() {
             if away > allowed {
                 lines.push(format!("box {found_low} {found_high}, not {low} {high}"));
             }
-            let centroid = reference.area_centroid_mm.map(DVec3::from);
+            let centroid = reference.area_centroid_mm.map(|c| DVec3::from(c.map(Option::unwrap_or_default)));
             if let Some(centroid) = centroid.filter(|c| c.distance(measure.centroid_mm) > allowed) {
                 lines.push(format!("centroid {}, not {centroid}", measure.centroid_mm));
             }

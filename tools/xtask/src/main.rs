@@ -1,6 +1,7 @@
 //! `cargo xtask`: what developers repeat.
 
 mod command;
+mod deviation;
 mod validate_gltf;
 
 use std::path::{Path, PathBuf};
@@ -29,6 +30,9 @@ enum Task {
     },
     /// Convert every fixture in every way and run the Khronos validator over the results
     ValidateGltf,
+    /// Print how far the fixtures' triangles are from the exact surfaces, by kind of surface (use a release build:
+    /// cargo run --release --package xtask -- deviation)
+    Deviation,
     /// Run the Criterion benchmarks
     Bench {
         /// Passed on to cargo bench
@@ -52,6 +56,10 @@ fn main() -> anyhow::Result<()> {
     match Arguments::parse().task {
         Task::Fixtures { arguments } => run(root.join("tools/reference/make"), &root, arguments),
         Task::ValidateGltf => validate_gltf::run(&root),
+        Task::Deviation => {
+            deviation::run();
+            Ok(())
+        }
         Task::Bench { arguments } => {
             cargo(&root, ["bench", "--workspace"].into_iter().map(str::to_string).chain(arguments))
         }
