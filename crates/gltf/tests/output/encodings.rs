@@ -137,8 +137,8 @@ fn waves(n: u32) -> (Model, Vec<PartMesh>) {
 fn compressed_files_unpack_to_the_same_triangles() {
     for quantize in [false, true] {
         let options = GltfOptions { quantize, face_ids: true, edges: true, ..GltfOptions::default() };
-        let plain = written(&waves(40), &options);
-        let document = written(&waves(40), &GltfOptions { meshopt: true, ..options });
+        let plain = written(&waves(120), &options);
+        let document = written(&waves(120), &GltfOptions { meshopt: true, ..options });
         same(&plain, &document, 0.0);
         assert!(2 * document.bin.len() < plain.bin.len(), "{} of {}", document.bin.len(), plain.bin.len());
         let used = &document.json["extensionsRequired"];
@@ -151,7 +151,7 @@ fn compressed_files_unpack_to_the_same_triangles() {
 #[test]
 fn compressed_views_agree_with_what_the_extension_asks() {
     let options = GltfOptions { meshopt: true, edges: true, ..GltfOptions::default() };
-    let document = written(&waves(40), &options);
+    let document = written(&waves(120), &options);
     let fallback = &document.json["buffers"][1];
     assert_eq!(fallback["extensions"]["EXT_meshopt_compression"], json!({ "fallback": true }));
     assert!(fallback.get("uri").is_none());
