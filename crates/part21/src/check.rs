@@ -84,7 +84,7 @@ enum Left<'a> {
 }
 
 /// Checks one record; damage is reported once, and a record that cannot be read is made unusable. Gives the offset of
-/// the next instance within the record's text, if there is one.
+/// the next instance within the record's text, if there is one: always further on.
 fn check_one(file: &[u8], record: &mut Record, findings: &mut Findings) -> Option<usize> {
     let text = record.text(file);
     let (instance, fault) = match read(text, record, &mut findings.scopes) {
@@ -95,7 +95,9 @@ fn check_one(file: &[u8], record: &mut Record, findings: &mut Findings) -> Optio
     };
     let fault_at = text.len() - fault.rest.len();
     findings.damage.push(Damage { offset: record.start + fault_at, instance, message: fault.message });
-    let next = if begins_record(fault.rest) { Some(fault_at) } else { next_record_line(text) };
+    // Never 0, or there would be no end to it.
+    let next =
+        if fault_at > 0 && begins_record(fault.rest) { Some(fault_at) } else { next_record_line(text) };
     next.map(|at| record.start + at)
 }
 

@@ -65,6 +65,9 @@ impl Exchange {
         let start = text_start(&text)?;
         let mut layout = lay_out(&text, start, options.max_errors);
         check_all(&text, &mut layout.records, &mut layout.damage);
+        if layout.records.len() >= u32::MAX as usize {
+            return Err(ReadError::NotPart21("the file has more than 4,294,967,294 instances".into()));
+        }
         let ids = index(&mut layout.records, &mut layout.damage);
         layout.records.shrink_to_fit();
         if layout.records.is_empty() && !text[start..].starts_with(MAGIC) {

@@ -209,8 +209,8 @@ impl<'a> Scanner<'a> {
     }
 }
 
-/// The start of the next line, outside strings and comments, that begins a record, in a text that begins outside
-/// both.
+/// The first character of the next line, outside strings and comments, that begins a record, in a text that begins
+/// outside both. Never 0.
 pub(crate) fn next_record_line(text: &[u8]) -> Option<usize> {
     let mut at = 0;
     loop {
@@ -222,7 +222,10 @@ pub(crate) fn next_record_line(text: &[u8]) -> Option<usize> {
             },
             b'/' if text.get(at + 1) == Some(&b'*') => comment_end(text, at + 2)?,
             b'/' => at + 1,
-            _ if begins_record(&text[at + 1..]) => return Some(at + 1),
+            _ if begins_record(&text[at + 1..]) => {
+                let blanks = text[at + 1..].iter().take_while(|&&byte| byte <= b' ').count();
+                return Some(at + 1 + blanks);
+            }
             _ => at + 1,
         }
     }
