@@ -1,7 +1,7 @@
 //! B-spline basis functions.
 
 /// Storage for the basis values of one parameter: on the stack for usual degrees, on the heap beyond.
-pub(crate) trait Row: AsRef<[f64]> + AsMut<[f64]> {
+pub(crate) trait Row: Clone + AsRef<[f64]> + AsMut<[f64]> {
     /// At least `len` zeros.
     fn zeros(len: usize) -> Self;
 }
@@ -19,28 +19,27 @@ impl Row for Vec<f64> {
     }
 }
 
-/// Runs `$body` with `$row` standing for the storage that fits `$degree`.
+/// Runs `$body` with `$row` standing for the storage that fits the higher of two degrees, and `$fixed` for their value
+/// where both are the same small number, which lets the compiler unroll every loop; else for 0.
 macro_rules! by_degree {
-    ($degree:expr, $row:ident => $body:expr) => {
-        match $degree {
-            0..=3 => {
-                type $row = [f64; 4];
+    ($degrees:expr, $row:ident, $fixed:ident => $body:expr) => {{
+        macro_rules! arm {
+            ($storage:ty, $value:expr) => {{
+                type $row = $storage;
+                const $fixed: usize = $value;
                 $body
-            }
-            4..=9 => {
-                type $row = [f64; 10];
-                $body
-            }
-            10..=31 => {
-                type $row = [f64; 32];
-                $body
-            }
-            _ => {
-                type $row = Vec<f64>;
-                $body
-            }
+            }};
         }
-    };
+        let [one, other]: [usize; 2] = $degrees;
+        match (one.max(other), one == other) {
+            (1, true) => arm!([f64; 2], 1),
+            (2, true) => arm!([f64; 3], 2),
+            (3, true) => arm!([f64; 4], 3),
+            (0..=9, _) => arm!([f64; 10], 0),
+            (10..=31, _) => arm!([f64; 32], 0),
+            _ => arm!(Vec<f64>, 0),
+        }
+    }};
 }
 pub(crate) use by_degree;
 
@@ -64,33 +63,38 @@ pub(crate) struct Basis<R> {
 }
 
 impl<R: Row> Basis<R> {
-    /// Values and derivatives up to `ORDER` (at most 2) at `t`, which lies in the domain.
+    /// Values and derivatives up to `ORDER` (at most 2) at `t`, which lies in the domain. `FIXED` is the degree where
+    /// the caller knows it when compiling, else 0.
     ///
     /// The functions of degree p come from those of degree p - 1 (Piegl & Tiller A2.2), the derivatives from the
     /// functions of one and two degrees less (eq. 2.7).
     #[inline]
-    pub fn new<const ORDER: usize>(knots: &[f64], degree: usize, count: usize, t: f64) -> Self {
+    pub fn new<const ORDER: usize, const FIXED: usize>(
+        knots: &[f64],
+        degree: usize,
+        count: usize,
+        t: f64,
+    ) -> Self {
+        let degree = if FIXED > 0 { FIXED } else { degree };
         let span = find_span(knots, degree, count, t);
         let local = &knots[span + 1 - degree..span + 1 + degree];
         let mut rows = [R::zeros(degree + 1), R::zeros(degree + 1), R::zeros(degree + 1)];
-        let [values, first, second] = &mut rows;
-        let values = &mut values.as_mut()[..degree + 1];
-        values[0] = 1.0;
+        rows[0].as_mut()[0] = 1.0;
         for j in 1..=degree {
             if ORDER >= 2 && j + 1 == degree {
-                second.as_mut()[..j].copy_from_slice(&values[..j]);
+                rows[2] = rows[0].clone();
             }
             if ORDER >= 1 && j == degree {
-                first.as_mut()[..j].copy_from_slice(&values[..j]);
+                rows[1] = rows[0].clone();
             }
-            raise(local, degree, j, t, values);
+            raise(local, degree, j, t, rows[0].as_mut());
         }
         if ORDER >= 1 {
-            differentiate(local, degree, degree, first.as_mut());
+            differentiate(local, degree, degree, rows[1].as_mut());
         }
         if ORDER >= 2 && degree >= 2 {
-            differentiate(local, degree, degree - 1, second.as_mut());
-            differentiate(local, degree, degree, second.as_mut());
+            differentiate(local, degree, degree - 1, rows[2].as_mut());
+            differentiate(local, degree, degree, rows[2].as_mut());
         }
         Self { first: span - degree, rows }
     }
@@ -132,7 +136,7 @@ mod tests {
     fn published_basis_values() {
         let knots = [0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 5.0, 5.0];
         assert_eq!(find_span(&knots, 2, 8, 2.5), 4);
-        let basis = Basis::<[f64; 4]>::new::<2>(&knots, 2, 8, 2.5);
+        let basis = Basis::<[f64; 4]>::new::<2, 0>(&knots, 2, 8, 2.5);
         assert_eq!(basis.first, 2);
         assert_eq!(basis.rows[0][..3], [1.0 / 8.0, 6.0 / 8.0, 1.0 / 8.0]);
         assert_eq!(basis.rows[1][..3], [-0.5, 0.0, 0.5]);
@@ -147,7 +151,7 @@ mod tests {
             knots.extend(vec![1.0; degree + 1]);
             let count = knots.len() - degree - 1;
             for step in 0..=20 {
-                let basis = Basis::<Vec<f64>>::new::<2>(&knots, degree, count, step as f64 / 20.0);
+                let basis = Basis::<Vec<f64>>::new::<2, 0>(&knots, degree, count, step as f64 / 20.0);
                 let sums = basis.rows.each_ref().map(|row| row.iter().sum::<f64>());
                 let size = basis.rows.each_ref().map(|row| row.iter().map(|x| x.abs()).sum::<f64>());
                 assert!((sums[0] - 1.0).abs() < 1e-12, "degree {degree}: {sums:?}");

@@ -176,19 +176,24 @@ pub(crate) fn sample_parameters(knots: &[f64], per_span: usize, cap: usize) -> V
 
 impl Data {
     fn evaluate<const ORDER: usize>(&self, t: f64) -> [DVec3; 3] {
-        by_degree!(self.degree, R => {
-            let basis = Basis::<R>::new::<ORDER>(&self.knots, self.degree, self.points.len(), t);
+        by_degree!([self.degree, self.degree], R, P => {
+            let basis = Basis::<R>::new::<ORDER, P>(&self.knots, self.degree, self.points.len(), t);
             if self.homogeneous.is_empty() {
-                combine::<_, _, ORDER>(&basis, self.degree, &self.points)
+                combine::<_, _, ORDER, P>(&basis, self.degree, &self.points)
             } else {
-                control::project_curve(combine::<_, _, ORDER>(&basis, self.degree, &self.homogeneous))
+                control::project_curve(combine::<_, _, ORDER, P>(&basis, self.degree, &self.homogeneous))
             }
         })
     }
 }
 
 #[inline]
-fn combine<P: Control, R: Row, const ORDER: usize>(basis: &Basis<R>, degree: usize, points: &[P]) -> [P; 3] {
+fn combine<P: Control, R: Row, const ORDER: usize, const FIXED: usize>(
+    basis: &Basis<R>,
+    degree: usize,
+    points: &[P],
+) -> [P; 3] {
+    let degree = if FIXED > 0 { FIXED } else { degree };
     let points = &points[basis.first..=basis.first + degree];
     let mut sums = [P::ZERO; 3];
     for (sum, row) in sums.iter_mut().zip(&basis.rows).take(ORDER + 1) {

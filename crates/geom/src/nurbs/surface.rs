@@ -182,16 +182,16 @@ impl NurbsSurface {
     /// Points on the grid `us` x `vs`, row-major over `us`. The basis is evaluated once per row and once per column.
     pub fn grid(&self, us: &[f64], vs: &[f64]) -> Vec<DVec3> {
         let data = &*self.0;
-        by_degree!(data.degrees[0].max(data.degrees[1]), R => {
+        by_degree!(data.degrees, R, P => {
             if data.homogeneous.is_empty() {
-                self.contract_grid::<_, R>(&data.points, us, vs, |p| p)
+                self.contract_grid::<_, R, P>(&data.points, us, vs, |p| p)
             } else {
-                self.contract_grid::<_, R>(&data.homogeneous, us, vs, |p: DVec4| p.truncate() / p.w)
+                self.contract_grid::<_, R, P>(&data.homogeneous, us, vs, |p: DVec4| p.truncate() / p.w)
             }
         })
     }
 
-    fn contract_grid<P: Control, R: Row>(
+    fn contract_grid<P: Control, R: Row, const FIXED: usize>(
         &self,
         points: &[P],
         us: &[f64],
@@ -199,10 +199,10 @@ impl NurbsSurface {
         finish: impl Fn(P) -> DVec3,
     ) -> Vec<DVec3> {
         let data = &*self.0;
-        let [pu, pv] = data.degrees;
+        let [pu, pv] = if FIXED > 0 { [FIXED; 2] } else { data.degrees };
         let [rows, columns] = data.shape;
         let basis = |d: usize, degree, count, t| {
-            Basis::<R>::new::<0>(&data.knots[d], degree, count, self.settle_along(d, t))
+            Basis::<R>::new::<0, FIXED>(&data.knots[d], degree, count, self.settle_along(d, t))
         };
         let across: Vec<Basis<R>> = vs.iter().map(|&v| basis(1, pv, columns, v)).collect();
         let mut grid = Vec::with_capacity(us.len() * vs.len());
@@ -277,14 +277,14 @@ impl View<'_> {
     /// S, Su, Sv, Suu, Suv, Svv up to `ORDER` at parameters inside the domain (Piegl & Tiller A3.6, A4.4).
     #[inline]
     pub fn evaluate<const ORDER: usize>(&self, uv: DVec2) -> [DVec3; 6] {
-        by_degree!(self.degrees[0].max(self.degrees[1]), R => {
+        by_degree!(self.degrees, R, P => {
             let [pu, pv] = self.degrees;
-            let bu = Basis::<R>::new::<ORDER>(self.knots[0], pu, self.shape[0], uv.x);
-            let bv = Basis::<R>::new::<ORDER>(self.knots[1], pv, self.shape[1], uv.y);
+            let bu = Basis::<R>::new::<ORDER, P>(self.knots[0], pu, self.shape[0], uv.x);
+            let bv = Basis::<R>::new::<ORDER, P>(self.knots[1], pv, self.shape[1], uv.y);
             if self.homogeneous.is_empty() {
-                contract::<_, _, ORDER>(self.points, self.shape[1], &bu, &bv, self.degrees)
+                contract::<_, _, ORDER, P>(self.points, self.shape[1], &bu, &bv, self.degrees)
             } else {
-                let sums = contract::<_, _, ORDER>(self.homogeneous, self.shape[1], &bu, &bv, self.degrees);
+                let sums = contract::<_, _, ORDER, P>(self.homogeneous, self.shape[1], &bu, &bv, self.degrees);
                 control::project_surface::<ORDER>(sums)
             }
         })
@@ -292,13 +292,14 @@ impl View<'_> {
 }
 
 #[inline]
-fn contract<P: Control, R: Row, const ORDER: usize>(
+fn contract<P: Control, R: Row, const ORDER: usize, const FIXED: usize>(
     points: &[P],
     columns: usize,
     bu: &Basis<R>,
     bv: &Basis<R>,
-    [pu, pv]: [usize; 2],
+    degrees: [usize; 2],
 ) -> [P; 6] {
+    let [pu, pv] = if FIXED > 0 { [FIXED; 2] } else { degrees };
     let [u0, u1, u2] = bu.rows.each_ref().map(|r| &r.as_ref()[..=pu]);
     let [v0, v1, v2] = bv.rows.each_ref().map(|r| &r.as_ref()[..=pv]);
     let mut s = [P::ZERO; 6];

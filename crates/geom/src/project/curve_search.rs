@@ -90,10 +90,11 @@ impl<E: Fn(f64) -> [DVec3; 3]> CurveSearch<E> {
             let residual = at[0] - target;
             let (slope, speed2) = (residual.dot(at[1]), at[1].length_squared());
             let bend = speed2 + residual.dot(at[2]);
-            let step = -slope / if bend > 1e-6 * speed2 { bend } else { speed2 };
-            let Some((next, value, settled)) = self.shorten(target, t, step, distance2, scale, at[1]) else {
-                break;
-            };
+            let convex = bend > 1e-6 * speed2;
+            let step = -slope / if convex { bend } else { speed2 };
+            // Newton's error after a step is about the square of the step.
+            let enough = if convex { 1e-9 } else { 1e-13 } * scale;
+            let Some((next, value, settled)) = self.shorten(target, t, step, at, enough) else { break };
             t = next;
             at = value;
             distance2 = (at[0] - target).length_squared();
@@ -104,27 +105,28 @@ impl<E: Fn(f64) -> [DVec3; 3]> CurveSearch<E> {
         Foot { t, distance2, proper: self.is_proper(t, at, target, scale) }
     }
 
-    /// The step, halved until the distance does not grow (beyond rounding); and whether it was the last one needed.
-    /// `None` where no step helps.
+    /// The step, halved until the distance does not grow (beyond rounding), and whether it was the last one needed: a
+    /// whole step no longer than `enough`. `None` where no step helps.
     fn shorten(
         &self,
         target: DVec3,
         t: f64,
         step: f64,
-        distance2: f64,
-        scale: f64,
-        tangent: DVec3,
+        at: [DVec3; 3],
+        enough: f64,
     ) -> Option<(f64, [DVec3; 3], bool)> {
+        let before = at[0].distance_squared(target);
+        let scale = at[0].length() + target.length();
         let mut step = step;
-        for _ in 0..30 {
+        for halvings in 0..30 {
             let next = self.limits.clamp(t + step);
-            let travel = (next - t).abs() * tangent.length();
+            let travel = (next - t).abs() * at[1].length();
             if travel <= 1e-16 * scale || travel.is_nan() {
                 return None;
             }
             let value = (self.evaluate)(next);
-            if (value[0] - target).length_squared() <= distance2 * (1.0 + 1e-14) + 1e-30 * scale * scale {
-                return Some((next, value, travel <= 1e-13 * scale));
+            if value[0].distance_squared(target) <= before * (1.0 + 1e-14) + 1e-30 * scale * scale {
+                return Some((next, value, travel <= if halvings == 0 { enough } else { 1e-13 * scale }));
             }
             step *= 0.5;
         }

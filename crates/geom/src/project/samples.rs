@@ -107,14 +107,18 @@ impl SampleGrid {
     /// than `bound`, best first. `margin` is how far the surface that is searched lies off the sampled one.
     pub fn local_minima(&self, target: DVec3, mut bound: f64, margin: f64) -> [Option<Start>; STARTS] {
         let mut best = [None; STARTS];
-        for (block, bounds) in self.boxes.iter().enumerate() {
-            let away = target.clamp(bounds.min, bounds.max).distance(target);
-            if away - self.reach[block] - margin >= bound {
+        if bound.is_infinite() {
+            bound = self.near(target) + margin;
+        }
+        for block in 0..self.boxes.len() {
+            if self.away2(block, target) >= square(bound + margin + self.reach[block]) {
                 continue;
             }
             for index in self.block(block) {
-                let distance = self.points[index].distance(target);
-                if distance - self.radii[index] - margin < bound && self.is_minimum(target, index) {
+                let distance2 = self.points[index].distance_squared(target);
+                let reach = bound + margin + self.radii[index];
+                if distance2 < square(reach) && self.is_minimum(target, index) {
+                    let distance = distance2.sqrt();
                     let uv = DVec2::new(self.us[index / self.vs.len()], self.vs[index % self.vs.len()]);
                     keep(&mut best, Start { distance, uv, radius: self.radii[index] });
                     bound = bound.min(distance + margin);
@@ -122,6 +126,20 @@ impl SampleGrid {
             }
         }
         best
+    }
+
+    /// The squared distance of `target` from a block's box.
+    fn away2(&self, block: usize, target: DVec3) -> f64 {
+        let bounds = &self.boxes[block];
+        target.clamp(bounds.min, bounds.max).distance_squared(target)
+    }
+
+    /// The distance of some sample that is as near as a first look can tell: the nearest one of the nearest block.
+    fn near(&self, target: DVec3) -> f64 {
+        let blocks = (0..self.boxes.len()).map(|block| (self.away2(block, target), block));
+        let nearest = blocks.min_by(|a, b| a.0.total_cmp(&b.0));
+        let samples = nearest.into_iter().flat_map(|(_, block)| self.block(block));
+        samples.map(|index| self.points[index].distance_squared(target)).fold(f64::INFINITY, f64::min).sqrt()
     }
 
     fn is_minimum(&self, target: DVec3, index: usize) -> bool {
@@ -216,6 +234,10 @@ fn creases(surface: &NurbsSurface, direction: Direction, across: &[f64]) -> Vec<
         })
     });
     found
+}
+
+fn square(x: f64) -> f64 {
+    x * x
 }
 
 fn keep(best: &mut [Option<Start>; STARTS], mut start: Start) {

@@ -26,6 +26,14 @@ pub(super) struct Foot {
     pub distance2: f64,
     /// Whether the way to the target is square to the surface there, or leads out of the domain.
     pub proper: bool,
+    /// Whether the target is on the surface for all that matters: within 1e-6 of the surface's extent.
+    pub on: bool,
+}
+
+impl Foot {
+    fn at(uv: DVec2, distance2: f64) -> Self {
+        Self { uv, distance2, proper: false, on: false }
+    }
 }
 
 const STEPS: usize = 60;
@@ -51,10 +59,10 @@ impl<'a> SurfaceSearch<'a> {
         hint: Option<DVec2>,
         samples: impl Fn() -> Cow<'s, SampleGrid>,
     ) -> Foot {
-        let nothing = Foot { uv: DVec2::ZERO, distance2: f64::INFINITY, proper: false };
+        let nothing = Foot::at(DVec2::ZERO, f64::INFINITY);
         let hinted = hint.map(|hint| self.descend(target, hint)).filter(|foot| foot.proper);
         let best = hinted.unwrap_or(nothing);
-        if best.distance2 <= 1e-20 * target.length_squared() {
+        if best.on {
             return best;
         }
         let found = self.improve(target, best, &samples());
@@ -75,7 +83,7 @@ impl<'a> SurfaceSearch<'a> {
             }
             let sampled = self.surface.point(start.uv).distance_squared(target);
             if sampled < best.distance2 {
-                best = Foot { uv: start.uv, distance2: sampled, proper: false };
+                best = Foot::at(start.uv, sampled);
             }
             for from in samples.approaches(start.uv) {
                 // On a creased surface the foot may lie on a crease, which each side then has as its border.
@@ -141,9 +149,11 @@ impl<'a> SurfaceSearch<'a> {
             if gradient.free == [false, false] {
                 break;
             }
+            // Newton's error after a step is about the square of the step.
+            let enough = if gradient.is_convex() { 1e-9 } else { 1e-13 } * scale;
             let moved = self
-                .shorten(target, uv, &at, gradient.newton(), scale)
-                .or_else(|| self.shorten(target, uv, &at, gradient.downhill(), scale));
+                .shorten(target, uv, &at, gradient.newton(), enough)
+                .or_else(|| self.shorten(target, uv, &at, gradient.downhill(), 1e-4 * enough));
             let Some((next, value, settled)) = moved else { break };
             uv = next;
             at = value;
@@ -153,10 +163,13 @@ impl<'a> SurfaceSearch<'a> {
         }
         let gradient = Gradient::new(&at, target, uv, &self.limits);
         let residual = at.point.distance(target);
-        Foot { uv, distance2: residual * residual, proper: gradient.vanishes(residual, scale) }
+        let extent = (2.0 * self.reach.x * at.du.length()).hypot(2.0 * self.reach.y * at.dv.length());
+        let on = residual <= 1e-12 * scale || (extent.is_finite() && residual <= 1e-6 * extent);
+        Foot { uv, distance2: residual * residual, proper: gradient.vanishes(residual, scale), on }
     }
 
-    /// The step, halved until the distance does not grow (beyond rounding), and whether it was the last one needed.
+    /// The step, halved until the distance does not grow (beyond rounding), and whether it was the last one needed: a
+    /// whole step no longer than `enough`.
     /// `None` where no step helps.
     fn shorten(
         &self,
@@ -164,11 +177,12 @@ impl<'a> SurfaceSearch<'a> {
         uv: DVec2,
         at: &Derivatives,
         step: DVec2,
-        scale: f64,
+        enough: f64,
     ) -> Option<(DVec2, Derivatives, bool)> {
         let before = at.point.distance_squared(target);
+        let scale = at.point.length() + target.length();
         let mut step = step.clamp(-self.reach, self.reach);
-        for _ in 0..24 {
+        for halvings in 0..24 {
             let next = self.clamp(uv + step);
             let change = next - uv;
             let travel = change.x.abs() * at.du.length() + change.y.abs() * at.dv.length();
@@ -177,7 +191,8 @@ impl<'a> SurfaceSearch<'a> {
             }
             let value = self.surface.derivatives(next);
             if value.point.distance_squared(target) <= before * (1.0 + 1e-14) + 1e-31 * scale * scale {
-                return Some((next, value, travel <= 1e-13 * scale));
+                let settled = travel <= if halvings == 0 { enough } else { 1e-13 * scale };
+                return Some((next, value, settled));
             }
             step *= 0.5;
         }
@@ -217,16 +232,25 @@ impl Gradient {
     fn newton(&self) -> DVec2 {
         match self.free {
             [true, true] => {
-                let [a, b, c] = self.hessian;
-                let safe = a > 1e-6 * self.metric[0]
-                    && c > 1e-6 * self.metric[2]
-                    && a * c - b * b > 1e-9 * self.metric[0] * self.metric[2];
-                if safe && a * c > 0.0 { solve([a, b, c], self.slope) } else { self.gauss_newton() }
+                if self.is_convex() {
+                    solve(self.hessian, self.slope)
+                } else {
+                    self.gauss_newton()
+                }
             }
             [true, false] => DVec2::new(self.along(0), 0.0),
             [false, true] => DVec2::new(0.0, self.along(1)),
             [false, false] => DVec2::ZERO,
         }
+    }
+
+    /// Whether the Hessian is safely positive.
+    fn is_convex(&self) -> bool {
+        let [a, b, c] = self.hessian;
+        a * c > 0.0
+            && a > 1e-6 * self.metric[0]
+            && c > 1e-6 * self.metric[2]
+            && a * c - b * b > 1e-9 * self.metric[0] * self.metric[2]
     }
 
     fn gauss_newton(&self) -> DVec2 {
