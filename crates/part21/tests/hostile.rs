@@ -233,10 +233,12 @@ proptest! {
     }
 }
 
-const TOKENS: [&str; 34] = [
+const TOKENS: [&str; 36] = [
     "#1",
     "#2=",
     "\n#3=",
+    "\n  #4=",
+    " ",
     "A",
     "(",
     ")",
