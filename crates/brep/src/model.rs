@@ -2,7 +2,7 @@
 
 use glam::DAffine3;
 
-use crate::{Diagnostics, EntityRef, Part, Rgba};
+use crate::{Diagnostic, Diagnostics, EntityRef, Part, Rgba, Severity};
 
 /// A file's content: each part once, and the instance tree that places them.
 #[derive(Clone, Debug, Default)]
@@ -72,6 +72,19 @@ pub struct Node {
 }
 
 impl Model {
+    /// Shows every use and face that the file hides, and says so in a diagnostic.
+    pub fn show_hidden(&mut self) {
+        let mut shown = 0;
+        let uses = self.nodes.iter_mut().map(|n| &mut n.hidden);
+        let faces = self.parts.iter_mut().flat_map(|p| &mut p.faces).map(|f| &mut f.hidden);
+        uses.chain(faces).for_each(|hidden| shown += usize::from(std::mem::take(hidden)));
+        if shown > 0 {
+            let message =
+                format!("the file hides {shown} of its faces and instances; they are shown all the same");
+            self.diagnostics.push(Diagnostic::new(Severity::Info, "hidden-shown", EntityRef::None, message));
+        }
+    }
+
     /// How often each part is placed below the roots (index as in `parts`).
     pub fn instance_counts(&self) -> Vec<usize> {
         let mut counts = vec![0; self.parts.len()];

@@ -134,6 +134,10 @@ pub struct ConvertArguments {
     #[arg(long, help_heading = "glTF")]
     pub face_ids: bool,
 
+    /// Leave out what the file hides; without this it is converted like everything else
+    #[arg(long, help_heading = "glTF")]
+    pub skip_hidden: bool,
+
     /// Store positions and normals as integers (KHR_mesh_quantization)
     #[arg(long, help_heading = "glTF")]
     pub quantize: bool,

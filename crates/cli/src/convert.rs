@@ -53,7 +53,10 @@ fn convert(job: &Job, arguments: &ConvertArguments, reports: &mut ReportSink) ->
     // Now rather than after minutes of work: can the output be written?
     job.target.files().try_for_each(|file| Draft::beside(file).map(drop))?;
     let start = Instant::now();
-    let model = trimloop_import::read(&job.input, &ImportOptions::default())?;
+    let mut model = trimloop_import::read(&job.input, &ImportOptions::default())?;
+    if !arguments.skip_hidden {
+        model.show_hidden();
+    }
     let imported = Instant::now();
     let meshes = mesh(&model, &arguments.mesh_options(), arguments.quiet)?;
     let meshed = Instant::now();

@@ -151,7 +151,7 @@ impl<'a> Document<'a> {
             self.shapes[part].iter().flat_map(|s| &s.primitives).map(|p| (p.mode, p.paint)).collect();
         let mut primitives = Vec::with_capacity(paints.len());
         for (i, (mode, paint)) in paints.into_iter().enumerate() {
-            let material = paint.finish(tint).map(|finish| self.material(finish));
+            let material = Some(self.material(paint.finish(tint)));
             let Accessors { attributes, indices } = &self.accessors[&part][i];
             primitives.push(JsonPrimitive {
                 attributes: attributes.iter().map(|(s, a)| (Checked::Valid(s.clone()), *a)).collect(),

@@ -72,16 +72,15 @@ pub(crate) struct Finish {
 }
 
 impl Paint {
-    /// The material of this paint under a tint; none where glTF's default serves.
-    pub(crate) fn finish(&self, tint: Tint) -> Option<Finish> {
+    /// The material of this paint under a tint. Even what has no colour gets one: glTF's default is all metal.
+    pub(crate) fn finish(&self, tint: Tint) -> Finish {
         let color = match (self.role, tint) {
             (Role::Edges, _) => Some(EDGE_COLOR.into()),
             (_, Tint::Over(color)) => Some(color),
             (_, Tint::Under(color)) => self.color.or(Some(color)),
             (_, Tint::None) => self.color,
         };
-        let double_sided = self.role == Role::Sheet;
-        (color.is_some() || double_sided).then_some(Finish { color, double_sided })
+        Finish { color, double_sided: self.role == Role::Sheet }
     }
 }
 
@@ -136,7 +135,7 @@ mod tests {
     #[test]
     fn a_material_is_a_dielectric_of_its_colour() {
         let glass = Rgba { r: 1.0, g: 0.5, b: 0.0, a: 0.25 };
-        let material = paint(Role::Solid, Some(glass)).finish(Tint::None).unwrap().material();
+        let material = paint(Role::Solid, Some(glass)).finish(Tint::None).material();
         assert_eq!(material.alpha_mode, Checked::Valid(AlphaMode::Blend));
         assert_eq!(material.pbr_metallic_roughness.metallic_factor.0, 0.0);
         assert_eq!(material.pbr_metallic_roughness.base_color_factor.0, [1.0, linear(0.5), 0.0, 0.25]);
@@ -145,10 +144,10 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_colour_has_no_material_unless_its_back_is_seen() {
-        assert!(paint(Role::Solid, None).finish(Tint::None).is_none());
-        assert!(paint(Role::Curves, None).finish(Tint::None).is_none());
-        assert!(paint(Role::Sheet, None).finish(Tint::None).unwrap().material().double_sided);
+    fn what_has_no_colour_is_no_metal_either() {
+        let plain = paint(Role::Solid, None).finish(Tint::None).material();
+        assert_eq!(plain.pbr_metallic_roughness.metallic_factor.0, 0.0);
+        assert!(paint(Role::Sheet, None).finish(Tint::None).material().double_sided);
     }
 
     #[test]

@@ -3,13 +3,14 @@
 use std::collections::{BTreeMap, HashMap};
 
 use glam::{DVec2, DVec3};
+use rustc_hash::FxHashMap;
 
 use crate::draft::{DraftVertex, FaceDraft};
 use crate::ear_clipping;
 
 /// How often each pair of points is run over: forward minus backward, from the lower number to the higher.
 #[derive(Default)]
-pub(crate) struct NetEdges(HashMap<(u32, u32), i32>);
+pub(crate) struct NetEdges(FxHashMap<(u32, u32), i32>);
 
 impl NetEdges {
     /// Counts one run from `a` to `b`.

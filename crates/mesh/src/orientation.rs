@@ -1,7 +1,5 @@
 //! Which faces must be turned so that a shell's triangles all face the same way, outwards where it is closed.
 
-use std::collections::HashMap;
-
 use glam::DVec3;
 use trimloop_brep::{BodyKind, Part, Shell};
 
@@ -96,19 +94,17 @@ impl Orientation {
 
 /// Per face of the shell its neighbours over edges that exactly two faces use, and whether every edge is such.
 fn neighbours(faces: &[usize], drafts: &[FaceDraft]) -> (Vec<Vec<Neighbour>>, bool) {
-    let mut uses: HashMap<(u32, u32), Vec<(usize, bool)>> = HashMap::new();
+    // (lower point, higher point, face, whether it is run over from the lower to the higher)
+    let mut uses: Vec<(u32, u32, usize, bool)> = Vec::new();
     for (k, &face) in faces.iter().enumerate() {
-        for &[a, b] in &drafts[face].boundary {
-            uses.entry((a.min(b), a.max(b))).or_default().push((k, a < b));
-        }
+        uses.extend(drafts[face].boundary.iter().map(|&[a, b]| (a.min(b), a.max(b), k, a < b)));
     }
+    uses.sort_unstable();
     let mut out: Vec<Vec<Neighbour>> = faces.iter().map(|_| Vec::new()).collect();
     let mut closed = true;
-    let mut pairs: Vec<_> = uses.into_iter().collect();
-    pairs.sort_unstable();
-    for (_, list) in pairs {
-        match list.as_slice() {
-            &[(f, forward_f), (g, forward_g)] if f != g => {
+    for list in uses.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {
+        match list {
+            &[(_, _, f, forward_f), (_, _, g, forward_g)] if f != g => {
                 let same_way = forward_f == forward_g;
                 out[f].push(Neighbour { face: g, same_way });
                 out[g].push(Neighbour { face: f, same_way });

@@ -1,7 +1,6 @@
 //! What a shell's triangles are like, seen from their edges.
 
-use std::collections::HashMap;
-
+use rustc_hash::FxHashMap;
 use trimloop_brep::Part;
 
 use crate::draft::FaceDraft;
@@ -27,7 +26,7 @@ pub(crate) fn of_shells(
 }
 
 fn count_edges(faces: &[usize], drafts: &[FaceDraft], turned: &[bool]) -> (usize, usize) {
-    let mut uses: HashMap<(u32, u32), (i32, u32)> = HashMap::new();
+    let mut uses: FxHashMap<(u32, u32), (i32, u32)> = FxHashMap::default();
     for &face in faces {
         for &[a, b] in &drafts[face].boundary {
             let entry = uses.entry((a.min(b), a.max(b))).or_default();

@@ -1,8 +1,7 @@
 //! The constrained Delaunay triangulation of a domain in the warped parameter plane.
 
-use std::collections::{HashMap, HashSet};
-
 use glam::DVec2;
+use rustc_hash::{FxHashMap, FxHashSet};
 use spade::handles::{FixedFaceHandle, InnerTag, PossiblyOuterTag};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 use trimloop_trim::TrimDomain;
@@ -31,7 +30,7 @@ pub(crate) struct Triangulation {
     /// Corners of the domain's loops, one after the other, to sites (corners at the same place share one).
     pub site_of_corner: Vec<u32>,
     /// Pairs of sites that the boundary runs over an even number of times: both sides are alike.
-    slits: HashSet<(u32, u32)>,
+    slits: FxHashSet<(u32, u32)>,
     /// Whether every boundary segment is an edge of the triangulation.
     pub intact: bool,
     domain_polygons: Vec<Vec<DVec2>>,
@@ -59,7 +58,7 @@ impl Triangulation {
         let polygons: Vec<Vec<DVec2>> =
             domain.loops.iter().map(|l| l.uvs().map(|uv| tame(warp.map(uv))).collect()).collect();
         let mut sites: Vec<Site> = Vec::new();
-        let mut known: HashMap<(u64, u64), u32> = HashMap::new();
+        let mut known: FxHashMap<(u64, u64), u32> = FxHashMap::default();
         let mut site_at = |at: DVec2, sites: &mut Vec<Site>| {
             *known.entry((at.x.to_bits(), at.y.to_bits())).or_insert_with(|| {
                 sites.push(Site { at, index: sites.len() as u32 });
@@ -178,8 +177,8 @@ impl Triangulation {
 }
 
 /// How often the boundary runs over each pair of sites.
-fn segment_uses(polygons: &[Vec<DVec2>], site_of_corner: &[u32]) -> HashMap<(u32, u32), u32> {
-    let mut uses = HashMap::new();
+fn segment_uses(polygons: &[Vec<DVec2>], site_of_corner: &[u32]) -> FxHashMap<(u32, u32), u32> {
+    let mut uses = FxHashMap::default();
     let mut first = 0;
     for polygon in polygons {
         let n = polygon.len();

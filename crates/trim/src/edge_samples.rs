@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use smallvec::SmallVec;
 use trimloop_brep::{Edge, FaceGeometry, FaceId, Part};
 use trimloop_geom::{Curve, Direction, Interval, Singularity, Surface, SurfacePoint};
 
@@ -133,7 +134,8 @@ struct Polyline {
 struct Sample {
     t: f64,
     point: DVec3,
-    sides: Vec<Foot>,
+    /// One per ground; nearly always two.
+    sides: SmallVec<[Foot; 2]>,
 }
 
 #[derive(Clone, Copy, Default)]

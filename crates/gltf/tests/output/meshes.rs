@@ -65,10 +65,11 @@ fn normals_are_unit_and_split_at_sharp_edges() {
 }
 
 #[test]
-fn what_has_no_colour_has_no_material() {
+fn what_has_no_colour_is_no_metal() {
     let document = written(&single(cube("cube", DVec3::ZERO, 10.0)), &plain());
-    assert!(primitives(&document)[0].get("material").is_none());
-    assert!(document.all("materials").is_empty());
+    assert!(primitives(&document)[0]["material"].is_u64());
+    let [material] = document.all("materials").as_slice() else { panic!("one material") };
+    assert_eq!(material["pbrMetallicRoughness"]["metallicFactor"], 0.0);
 }
 
 #[test]
@@ -128,7 +129,7 @@ fn free_curves_are_lines_of_their_colour() {
     assert_eq!((&red["mode"], &none["mode"]), (&json!(1), &json!(1)));
     assert_eq!(document.corners(red).len(), 2 * 3 * 2);
     assert_eq!(document.corners(none).len(), 3 * 2);
-    assert_eq!(document.all("materials").len(), 1);
+    assert_eq!(document.all("materials").len(), 2);
 }
 
 #[test]
