@@ -1,6 +1,7 @@
 //! Solids, shells and surface models: which faces belong together.
 
-use trimloop_brep::{Body, BodyKind, Shell, ShellFace};
+use rustc_hash::FxHashSet;
+use trimloop_brep::{Body, BodyKind, Diagnostic, Severity, Shell, ShellFace};
 
 use super::context::Context;
 use super::fault::Outcome;
@@ -102,7 +103,22 @@ impl PartBuilder<'_> {
             };
             faces.push(ShellFace { face, reversed: turned != reversed });
         }
+        self.drop_repeated(index, &mut faces);
         Ok(Shell { entity: self.table.entity(index), closed, void: false, faces })
+    }
+}
+
+impl PartBuilder<'_> {
+    /// Drops what a shell lists twice in the same direction, and reports it.
+    fn drop_repeated(&mut self, shell: usize, faces: &mut Vec<ShellFace>) {
+        let mut met = FxHashSet::default();
+        let listed = faces.len();
+        faces.retain(|used| met.insert((used.face, used.reversed)));
+        if faces.len() < listed {
+            let entity = self.table.entity(shell);
+            let message = format!("Shell {entity} lists {} faces twice.", listed - faces.len());
+            self.seeds.diagnostics.push(Diagnostic::new(Severity::Warning, "face-repeated", entity, message));
+        }
     }
 }
 

@@ -6,9 +6,14 @@ use trimloop_brep::{Coedge, Diagnostic, Diagnostics, EntityRef, Loop, Severity, 
 use super::fault::Outcome;
 use super::seeds::{EdgeSeed, Seeds};
 
-/// The farthest apart two vertices may lie to be merged, millimetres, where the file states no larger
-/// uncertainty.
+/// How far apart two vertices may always lie to be merged, millimetres.
 const MERGE_MM: f64 = 1e-4;
+
+/// How far apart they may lie at most, however inaccurate the file says it is.
+const MERGE_AT_MOST_MM: f64 = 0.1;
+
+/// How far apart they may lie as a share of the shorter edge: the loop says that they are one point.
+const MERGE_SHARE: f64 = 0.01;
 
 /// Mends every loop whose edges do not meet, as far as that can be done by merging vertices or by putting the
 /// edges into another order or direction. `points` are the vertices' points.
@@ -58,11 +63,15 @@ fn mend(
     merged: &mut Merged,
     diagnostics: &mut Diagnostics,
 ) {
-    merge_joints(&bound.coedges, edges, points, merged);
+    let entity = bound.entity;
+    let widest = merge_joints(&bound.coedges, edges, points, merged);
+    if widest > MERGE_MM {
+        let message = format!("Gaps of up to {widest:.4} mm between the edges of loop {entity} were closed.");
+        diagnostics.push(Diagnostic::new(Severity::Warning, "loop-gap-closed", entity, message));
+    }
     if first_gap(&bound.coedges, edges, merged).is_none() {
         return;
     }
-    let entity = bound.entity;
     if let Some(chained) = chained(&bound.coedges, edges, merged) {
         bound.coedges = chained;
         let message =
@@ -74,19 +83,36 @@ fn mend(
     }
 }
 
-/// Merges the vertices at joints that are one point within the accuracy of the file.
-fn merge_joints(coedges: &[Coedge], edges: &[EdgeSeed], points: &[Outcome<DVec3>], merged: &mut Merged) {
-    let Some(mut previous) = coedges.last() else { return };
+/// Merges the vertices at joints that are one point within the accuracy of the file, or so near compared with the
+/// edges that they must be meant to be one. Gives the widest gap that was closed.
+fn merge_joints(
+    coedges: &[Coedge],
+    edges: &[EdgeSeed],
+    points: &[Outcome<DVec3>],
+    merged: &mut Merged,
+) -> f64 {
+    let Some(mut previous) = coedges.last() else { return 0.0 };
+    let chord = |coedge: &Coedge| {
+        let [start, end] = ends(coedge, edges).map(|vertex| points[vertex as usize].as_ref().ok());
+        start.zip(end).map_or(0.0, |(start, end)| start.distance(*end))
+    };
+    let mut widest: f64 = 0.0;
     for coedge in coedges {
         let (from, to) = (ends(previous, edges)[1], ends(coedge, edges)[0]);
-        let reach = edges[coedge.edge as usize].units.uncertainty_mm.clamp(MERGE_MM, 0.1);
+        let shorter = chord(previous).min(chord(coedge));
+        let uncertainty_mm =
+            edges[coedge.edge as usize].units.uncertainty_mm.min(MERGE_SHARE.sqrt() * shorter);
+        let reach = uncertainty_mm.max(MERGE_SHARE * shorter).clamp(MERGE_MM, MERGE_AT_MOST_MM);
         if let (Ok(a), Ok(b)) = (&points[from as usize], &points[to as usize])
+            && from != to
             && a.distance(*b) <= reach
         {
             merged.merge(from, to);
+            widest = widest.max(a.distance(*b));
         }
         previous = coedge;
     }
+    widest
 }
 
 /// The same edges in an order and in directions in which each starts where the one before ends, if there is one

@@ -64,7 +64,8 @@ impl<'t> Reader<'t> {
             }
             Kind::OffsetCurve3d => {
                 let basis = self.curve(attributes.reference("basis curve")?)?;
-                let distance = attributes.real("distance")? * self.units.length_mm;
+                // ISO 10303-42 offsets along reference direction x tangent, the curve here the other way round.
+                let distance = -attributes.real("distance")? * self.units.length_mm;
                 attributes.skip(1);
                 let ref_direction = self.direction(attributes.reference("reference direction")?)?;
                 Ok(Curve::Offset(Box::new(OffsetCurve { basis, distance, ref_direction })))
@@ -275,6 +276,16 @@ impl<'t> Reader<'t> {
     fn scaled(&self, index: usize, curve: Curve, surface: &Surface) -> Outcome<Curve> {
         let scale = surface_parameter_scale(surface, self.units.length_mm, self.units.angle_rad);
         scaled_pcurve(curve, scale).ok_or_else(|| self.fault(index, "mixes units that cannot be converted"))
+    }
+}
+
+/// A bounded segment as a curve that ends where the segment does.
+pub(crate) fn bounded_segment(segment: CompositeSegment) -> Curve {
+    let domain = segment.curve.domain();
+    if !segment.reversed && domain.start >= segment.range.start && domain.end <= segment.range.end {
+        segment.curve
+    } else {
+        Curve::Composite(CompositeCurve { segments: vec![segment] })
     }
 }
 

@@ -33,7 +33,7 @@ pub(crate) fn edge_range(
     let (mut low, low_gap) = ends.snap(curve, first, End::Start, reach);
     let (mut high, high_gap) = ends.snap(curve, last, End::End, reach);
     let gap = low_gap.max(high_gap);
-    if let Some(period) = curve.period() {
+    if let Some(period) = period(curve) {
         let coincident = closed || first.distance(last) <= 1e-9 * (1.0 + first.length());
         high = unwrap_around(low, high, period, coincident);
         return EdgeRange { range: Interval::new(low, high), same_sense, gap };
@@ -47,6 +47,17 @@ pub(crate) fn edge_range(
     } else {
         EdgeRange { range: Interval::new(high, low), same_sense: !same_sense, gap }
     }
+}
+
+/// The period of a curve; also of one that runs straight around a closed surface.
+fn period(curve: &Curve) -> Option<f64> {
+    let Curve::OnSurface { surface, pcurve } = curve else { return curve.period() };
+    let Curve::Line { direction, .. } = **pcurve else { return curve.period() };
+    let around = |along: f64, across: f64, period: Option<f64>| {
+        (across.abs() <= 1e-12 * along.abs()).then(|| period.map(|period| period / along.abs()))?
+    };
+    let [u, v] = surface.periods();
+    around(direction.x, direction.y, u).or_else(|| around(direction.y, direction.x, v))
 }
 
 /// `high` moved by whole periods into the first turn after `low`.

@@ -82,14 +82,16 @@ impl<'t> PartBuilder<'t> {
         match kind {
             Kind::AdvancedFace | Kind::FaceSurface => {
                 let surface = attributes.reference("face geometry")?;
-                seed.surface = Ok(FaceSurface::Slot(self.seeds.surface_slot(surface, context.units)));
+                seed.surface =
+                    Ok(FaceSurface::Slot(self.seeds.surface_slot(surface, context.units, bounds.is_empty())));
                 seed.same_sense = attributes.flag();
             }
             Kind::Subface => {
                 let parent = attributes.reference("parent face")?;
                 let mut parent = self.table.attributes(parent).after(2);
                 let surface = parent.reference("face geometry")?;
-                seed.surface = Ok(FaceSurface::Slot(self.seeds.surface_slot(surface, context.units)));
+                seed.surface =
+                    Ok(FaceSurface::Slot(self.seeds.surface_slot(surface, context.units, bounds.is_empty())));
                 seed.same_sense = parent.flag();
             }
             _ => {}

@@ -30,8 +30,10 @@ pub(crate) fn finish(table: &Table<'_>, budget: &Budget, mut seeds: Seeds) -> (P
     mend_loops(&mut seeds, &points);
     let mut diagnostics = std::mem::take(&mut seeds.diagnostics);
     let curves = collect(map(&seeds.curves, |&(index, units)| stage.curve(index, units)), &mut diagnostics);
-    let surfaces =
-        collect(map(&seeds.surfaces, |&(index, units)| stage.surface(index, units)), &mut diagnostics);
+    let surfaces = collect(
+        map(&seeds.surfaces, |&(index, units, whole)| stage.surface(index, units, whole)),
+        &mut diagnostics,
+    );
     let mut edges = collect(map(&seeds.edges, |edge| stage.edge(edge, &points, &curves)), &mut diagnostics);
     straighten(table, &seeds, &points, &surfaces, &mut edges, &mut diagnostics);
     let hints = hints(table, budget, &seeds, &surfaces);
@@ -118,8 +120,9 @@ impl<'t> Stage<'t> {
         (reader.curve(index).map(Arc::new), reader.notes)
     }
 
-    fn surface(&self, index: usize, units: Units) -> (Outcome<Arc<Surface>>, Diagnostics) {
+    fn surface(&self, index: usize, units: Units, whole: bool) -> (Outcome<Arc<Surface>>, Diagnostics) {
         let mut reader = self.reader(units);
+        reader.whole_surface = whole;
         (reader.surface(index).map(Arc::new), reader.notes)
     }
 

@@ -88,11 +88,13 @@ impl<'t> PartBuilder<'t> {
             Kind::CurveBoundedSurface => self.curve_bounded(index, seed.clone(), context),
             Kind::RectangularTrimmedSurface => self.rectangle(index, context).map(|patch| {
                 let same_sense = seed.same_sense == patch.same_sense;
+                let patch = Patch { same_sense, ..patch };
                 let loops = self.patch_loops(&patch, index, context);
                 FaceSeed { surface: Ok(FaceSurface::Ready(patch.surface)), same_sense, loops, ..seed.clone() }
             }),
             _ => {
                 let mut reader = self.reader(context);
+                reader.whole_surface = true;
                 let surface = reader.surface(index);
                 self.seeds.diagnostics.append(&mut reader.notes);
                 if surface.as_ref().is_ok_and(|surface| !is_bounded(surface)) {

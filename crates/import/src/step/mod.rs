@@ -1,5 +1,6 @@
 //! STEP entities to the exact model.
 
+mod annotation;
 mod assembly;
 mod attributes;
 mod body;
@@ -23,6 +24,7 @@ mod product;
 mod reader;
 mod representation;
 mod seeds;
+mod sew;
 mod shape_links;
 mod source;
 mod spline;
@@ -37,6 +39,7 @@ mod wireframe;
 use trimloop_brep::{Diagnostic, Diagnostics, EntityRef, Model, Node, Part, Severity};
 use trimloop_part21::Exchange;
 
+use self::annotation::Annotations;
 use self::assembly::{PartPlan, Tree, TreeBuilder};
 use self::component::Placements;
 use self::context::Context;
@@ -100,6 +103,7 @@ struct File<'t> {
     products: Products,
     looks: Looks,
     layers: Layers,
+    annotations: Annotations,
 }
 
 impl<'t> File<'t> {
@@ -114,6 +118,7 @@ impl<'t> File<'t> {
             representations,
             looks: Looks::new(table),
             layers: Layers::new(table),
+            annotations: Annotations::new(table),
         }
     }
 
@@ -154,7 +159,8 @@ impl<'t> File<'t> {
     }
 
     fn part(&self, plan: &PartPlan) -> (Part, Diagnostics) {
-        let mut builder = PartBuilder::new(self.table, &self.budget, &self.looks, &self.layers);
+        let mut builder =
+            PartBuilder::new(self.table, &self.budget, &self.looks, &self.layers, &self.annotations);
         let mut uncertainty_mm: f64 = 0.0;
         let mut look = self.looks.of(plan.entity);
         // Exact bodies first: a tessellation that stands for one of them is then known to.
@@ -174,8 +180,8 @@ impl<'t> File<'t> {
         for &item in &plan.lone_items {
             builder.item(item, look, Context { units: self.units.of_context(None) });
         }
-        let (part, diagnostics) = finish::finish(self.table, &self.budget, builder.seeds);
-        let part = Part {
+        let (part, mut diagnostics) = finish::finish(self.table, &self.budget, builder.seeds);
+        let mut part = Part {
             name: plan.name.clone(),
             id: plan.id.clone(),
             entity: self.table.entity(plan.entity),
@@ -183,6 +189,7 @@ impl<'t> File<'t> {
             color: look.surface,
             ..part
         };
+        sew::sew(&mut part, &mut diagnostics);
         (part, diagnostics)
     }
 }

@@ -2,6 +2,7 @@
 
 use trimloop_brep::{Diagnostic, FreeCurve, Severity};
 
+use super::annotation::Annotations;
 use super::body::{is_face, is_shell};
 use super::context::Context;
 use super::keyword::Kind;
@@ -18,13 +19,20 @@ pub(crate) struct PartBuilder<'t> {
     pub budget: &'t Budget,
     pub looks: &'t Looks,
     pub layers: &'t Layers,
+    pub annotations: &'t Annotations,
     pub seeds: Seeds,
 }
 
 impl<'t> PartBuilder<'t> {
     /// A builder with nothing collected.
-    pub fn new(table: &'t Table<'t>, budget: &'t Budget, looks: &'t Looks, layers: &'t Layers) -> Self {
-        Self { table, budget, looks, layers, seeds: Seeds::default() }
+    pub fn new(
+        table: &'t Table<'t>,
+        budget: &'t Budget,
+        looks: &'t Looks,
+        layers: &'t Layers,
+        annotations: &'t Annotations,
+    ) -> Self {
+        Self { table, budget, looks, layers, annotations, seeds: Seeds::default() }
     }
 
     /// A reader of geometry in this context.
@@ -34,6 +42,9 @@ impl<'t> PartBuilder<'t> {
 
     /// Collects one representation item: a solid, a surface model, a set of curves, ...
     pub fn item(&mut self, index: usize, inherited: Look, context: Context) {
+        if self.annotations.hold(index) {
+            return;
+        }
         let look = self.looks.of(index).over(inherited);
         match self.table.kind(index) {
             Kind::ManifoldSolidBrep | Kind::FacetedBrep | Kind::BrepWithVoids => {

@@ -43,7 +43,7 @@ fn of_face(
     ) {
         return None;
     }
-    let (surface_index, _) = seeds.surfaces[*slot];
+    let (surface_index, ..) = seeds.surfaces[*slot];
     let coedges = face.loops.iter().flat_map(|bound| &bound.coedges);
     let found = coedges.map(|coedge| {
         let edge = &seeds.edges[coedge.edge as usize];

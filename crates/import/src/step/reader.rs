@@ -38,6 +38,8 @@ pub(crate) struct Reader<'t> {
     pub units: Units,
     /// What was repaired on the way.
     pub notes: Diagnostics,
+    /// Whether surfaces are read to be used as a whole, with no loops to bound them.
+    pub whole_surface: bool,
     budget: &'t Budget,
     depth: usize,
 }
@@ -45,7 +47,7 @@ pub(crate) struct Reader<'t> {
 impl<'t> Reader<'t> {
     /// A reader with nothing read yet.
     pub fn new(table: &'t Table<'t>, budget: &'t Budget, units: Units) -> Self {
-        Self { table, units, notes: Vec::new(), budget, depth: 0 }
+        Self { table, units, notes: Vec::new(), whole_surface: false, budget, depth: 0 }
     }
 
     /// Runs `read` one level deeper; refuses when that is too deep, which ends reference cycles too.

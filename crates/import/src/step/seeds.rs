@@ -79,17 +79,19 @@ pub(crate) struct Seeds {
     pub facet_points: Vec<DVec3>,
     /// Curves of edges, each once.
     pub curves: Vec<(usize, Units)>,
-    /// Surfaces of faces, each once.
-    pub surfaces: Vec<(usize, Units)>,
+    /// Surfaces of faces, each once, and whether they are used as a whole.
+    pub surfaces: Vec<(usize, Units, bool)>,
     pub diagnostics: Diagnostics,
     pub vertex_of: FxHashMap<usize, VertexId>,
     pub edge_of: FxHashMap<usize, Outcome<EdgeId>>,
     pub polygon_edge_of: FxHashMap<(VertexId, VertexId), EdgeId>,
     pub face_of: FxHashMap<usize, u32>,
     pub curve_slot_of: FxHashMap<usize, usize>,
-    pub surface_slot_of: FxHashMap<usize, usize>,
-    /// Where the points of a `coordinates_list` lie in `facet_points`: first and count.
-    pub coordinates_of: FxHashMap<usize, (u32, usize)>,
+    pub surface_slot_of: FxHashMap<(usize, bool), usize>,
+    /// Where the points of a `coordinates_list` lie in `facet_points`.
+    pub coordinates_of: FxHashMap<usize, Arc<[u32]>>,
+    /// Points of facets by the bits of their coordinates.
+    pub facet_point_of: FxHashMap<[u64; 3], u32>,
 }
 
 impl Seeds {
@@ -108,6 +110,16 @@ impl Seeds {
         (self.vertices.len() - 1) as VertexId
     }
 
+    /// A point of facets; one at the very same place is used again.
+    pub fn facet_point(&mut self, point: DVec3) -> u32 {
+        let points = &mut self.facet_points;
+        // Adding zero turns -0 into 0.
+        *self.facet_point_of.entry((point + DVec3::ZERO).to_array().map(f64::to_bits)).or_insert_with(|| {
+            points.push(point);
+            (points.len() - 1) as u32
+        })
+    }
+
     /// The place of a curve in [`Self::curves`].
     pub fn curve_slot(&mut self, index: usize, units: Units) -> usize {
         let curves = &mut self.curves;
@@ -117,11 +129,11 @@ impl Seeds {
         })
     }
 
-    /// The place of a surface in [`Self::surfaces`].
-    pub fn surface_slot(&mut self, index: usize, units: Units) -> usize {
+    /// The place of a surface in [`Self::surfaces`]; `whole` where no loops bound the face.
+    pub fn surface_slot(&mut self, index: usize, units: Units, whole: bool) -> usize {
         let surfaces = &mut self.surfaces;
-        *self.surface_slot_of.entry(index).or_insert_with(|| {
-            surfaces.push((index, units));
+        *self.surface_slot_of.entry((index, whole)).or_insert_with(|| {
+            surfaces.push((index, units, whole));
             surfaces.len() - 1
         })
     }

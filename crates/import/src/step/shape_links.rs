@@ -127,12 +127,16 @@ impl<'t> ShapeLinks<'t> {
         if let Some(known) = self.links.get(&shape) {
             return known.clone();
         }
-        let mut links = Vec::new();
-        if let Shape::Product(index) = shape {
-            self.add_uses(index, &mut links);
+        let representations = self.representations_of(shape).to_vec();
+        let (mut links, mut mapped) = (Vec::new(), Vec::new());
+        for &representation in &representations {
+            self.add_mapped(representation, &mut mapped);
         }
-        for representation in self.representations_of(shape).to_vec() {
-            self.add_mapped(representation, &mut links);
+        if let Shape::Product(index) = shape {
+            self.add_uses(index, &mut mapped, &mut links);
+        }
+        links.append(&mut mapped);
+        for representation in representations {
             self.add_attached(representation, &mut links);
         }
         links.iter_mut().for_each(|link| self.see_through(link));
@@ -145,10 +149,22 @@ impl<'t> ShapeLinks<'t> {
         self.representations.get(representation).map(|held| held.items.as_slice()).unwrap_or_default()
     }
 
-    fn add_uses(&mut self, index: usize, links: &mut Vec<Link>) {
+    /// The product's uses of others. One without a shape of its own is placed by a mapped item, if the assembly
+    /// maps the used product's shape; those items are taken from `mapped`.
+    fn add_uses(&mut self, index: usize, mapped: &mut Vec<Link>, links: &mut Vec<Link>) {
         let Some(assembly) = self.products.get(index) else { return };
         for usage in &assembly.uses {
             let Some(component) = self.products.get(usage.child) else { continue };
+            let by_map = mapped
+                .iter()
+                .position(|link| usage.relationship.is_none() && link.shape == Shape::Product(usage.child));
+            if let Some(place) = by_map {
+                let item = mapped.remove(place);
+                let styled = vec![usage.index, item.entity];
+                let instance_name = usage.name.clone();
+                links.push(Link { instance_name, entity: usage.index, styled, ..item });
+                continue;
+            }
             let (transform, mut reader) = self.placements.of_use(usage, assembly, component);
             self.diagnostics.append(&mut reader.notes);
             let shape = Shape::Product(usage.child);

@@ -8,7 +8,8 @@ use trimloop_brep::{Diagnostic, Diagnostics, Edge, EntityRef, Severity};
 use trimloop_geom::{Curve, Interval, Surface};
 
 use super::fault::Outcome;
-use super::seeds::{FaceSurface, Seeds};
+use super::keyword::Kind;
+use super::seeds::{EdgeCurve, EdgeSeed, FaceSurface, Seeds};
 use super::table::Table;
 
 /// How far from its faces a straight line may run to be taken for an edge, millimetres.
@@ -46,22 +47,35 @@ pub(crate) fn straighten(
         let (Ok(start), Ok(end)) = (&points[seed.start as usize], &points[seed.end as usize]) else {
             continue;
         };
-        if start == end || !surfaces.into_iter().flatten().all(|surface| runs_on(surface, *start, *end)) {
+        if start == end {
+            // A line of no length has no direction to be read.
+            let EdgeCurve::Slot(slot) = seed.curve else { continue };
+            if table.kind(seeds.curves[slot].0) == Kind::Line {
+                edges[id as usize] = Ok(straight(table, seed, *start, *end));
+            }
+            continue;
+        }
+        if !surfaces.into_iter().flatten().all(|surface| runs_on(surface, *start, *end)) {
             continue;
         }
         let entity = seed.index.map_or(EntityRef::None, |index| table.entity(index));
         let message =
             format!("The curve of edge {entity} cannot be read; the edge is straight as its faces show.");
         diagnostics.push(Diagnostic::new(Severity::Warning, "edge-straightened", entity, message));
-        let curve = Curve::Line { origin: *start, direction: *end - *start };
-        edges[id as usize] = Ok(Edge {
-            entity,
-            start: seed.start,
-            end: seed.end,
-            curve: Arc::new(curve),
-            range: Interval::new(0.0, 1.0),
-            same_sense: true,
-        });
+        edges[id as usize] = Ok(straight(table, seed, *start, *end));
+    }
+}
+
+/// The straight edge between two points; of no length where they are the same.
+fn straight(table: &Table<'_>, seed: &EdgeSeed, start: DVec3, end: DVec3) -> Edge {
+    let (direction, length) = if start == end { (DVec3::X, 0.0) } else { (end - start, 1.0) };
+    Edge {
+        entity: seed.index.map_or(EntityRef::None, |index| table.entity(index)),
+        start: seed.start,
+        end: seed.end,
+        curve: Arc::new(Curve::Line { origin: start, direction }),
+        range: Interval::new(0.0, length),
+        same_sense: true,
     }
 }
 

@@ -4,9 +4,10 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use trimloop_brep::Severity;
-use trimloop_geom::{Frame, Interval, Surface};
+use trimloop_geom::{Curve, Frame, Interval, Surface};
 
 use super::attributes::Attributes;
+use super::curve::bounded_segment;
 use super::fault::Outcome;
 use super::keyword::Kind;
 use super::reader::Reader;
@@ -33,12 +34,12 @@ impl<'t> Reader<'t> {
             }
             Kind::ToroidalSurface | Kind::DegenerateToroidalSurface => self.torus(index, attributes),
             Kind::SurfaceOfLinearExtrusion => {
-                let profile = Arc::new(self.curve(attributes.reference("swept curve")?)?);
+                let profile = self.profile(&mut attributes)?;
                 let direction = self.vector(attributes.reference("extrusion axis")?)?;
                 Ok(Surface::Extrusion { profile, direction })
             }
             Kind::SurfaceOfRevolution => {
-                let profile = Arc::new(self.curve(attributes.reference("swept curve")?)?);
+                let profile = self.profile(&mut attributes)?;
                 let (origin, axis) = self.axis(attributes.reference("axis position")?)?;
                 Ok(Surface::Revolution { profile, origin, axis })
             }
@@ -67,6 +68,16 @@ impl<'t> Reader<'t> {
             | Kind::BSplineSurface => self.spline_surface(index).map(Surface::Nurbs),
             _ => Err(self.unexpected(index, "surface")),
         }
+    }
+
+    /// The curve that is swept. A trimmed one matters only where no loop bounds the face; elsewhere its basis gives
+    /// the parameters that the file means.
+    fn profile(&mut self, attributes: &mut Attributes<'t>) -> Outcome<Arc<Curve>> {
+        let curve = attributes.reference("swept curve")?;
+        if self.whole_surface && self.table.kind(curve) == Kind::TrimmedCurve {
+            return self.segment(curve).map(|segment| Arc::new(bounded_segment(segment)));
+        }
+        self.curve(curve).map(Arc::new)
     }
 
     fn position(&self, attributes: &mut Attributes<'_>) -> Outcome<Frame> {

@@ -1,7 +1,10 @@
 //! AP242 tessellated geometry (ISO 10303-42:2014 §7): solids, shells, faces and surface sets of triangles.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DVec3};
-use trimloop_brep::{BodyKind, Diagnostic, Facets, Severity, Shell, ShellFace};
+use trimloop_brep::{BodyKind, Diagnostic, Facets, FreeCurve, Severity, Shell, ShellFace};
+use trimloop_geom::{Curve, Interval, Polyline};
 use trimloop_part21::Param;
 
 use super::attributes::Attributes;
@@ -16,7 +19,7 @@ use super::seeds::{FaceSeed, FaceSurface};
 const MAX_DEPTH: usize = 16;
 
 impl<'t> PartBuilder<'t> {
-    /// A tessellated item; what only annotates (curve and point sets) is left out.
+    /// A tessellated item: faces become a body, lines free curves, points nothing.
     pub fn tessellated(&mut self, index: usize, look: Look, context: Context) {
         if self.has_exact_twin(index) {
             let entity = self.table.entity(index);
@@ -31,6 +34,9 @@ impl<'t> PartBuilder<'t> {
         }
         let name = self.table.attributes(index).text().into_owned();
         let kind = self.tessellated_kind(index);
+        // Points are shared within a body: faces meet in them, even where each lists its own.
+        self.seeds.facet_point_of.clear();
+        self.seeds.coordinates_of.clear();
         let mut faces = Vec::new();
         self.tessellated_faces(index, look, context, DAffine3::IDENTITY, 0, &mut faces);
         let body_kind = if kind == Kind::TessellatedSolid { BodyKind::Solid } else { BodyKind::Sheet };
@@ -75,6 +81,9 @@ impl<'t> PartBuilder<'t> {
         depth: usize,
         faces: &mut Vec<ShellFace>,
     ) {
+        if self.annotations.hold(index) {
+            return;
+        }
         let look = self.looks.of(index).over(inherited);
         match self.tessellated_kind(index) {
             Kind::TessellatedSolid | Kind::TessellatedShell | Kind::TessellatedGeometricSet
@@ -92,8 +101,41 @@ impl<'t> PartBuilder<'t> {
                 let face = self.facet_face(index, look, context, map);
                 faces.push(ShellFace { face, reversed: false });
             }
+            Kind::TessellatedCurveSet if !look.hidden => {
+                if let Err(fault) = self.line_strips(index, look, context, map) {
+                    self.seeds.diagnostics.push(fault.diagnostic("curve-unreadable"));
+                }
+            }
             _ => {}
         }
+    }
+
+    /// `tessellated_curve_set`: every strip a free polyline.
+    fn line_strips(&mut self, index: usize, look: Look, context: Context, map: DAffine3) -> Outcome<()> {
+        let mut attributes = self.table.attributes(index).after(1);
+        let points = self.coordinates(attributes.reference("coordinates")?, context, map)?;
+        for strip in corner_runs(&mut attributes)? {
+            let mut corners = Vec::with_capacity(strip.len());
+            for corner in strip {
+                let point = corner.checked_sub(1).and_then(|corner| points.get(corner));
+                let point =
+                    point.ok_or_else(|| attributes.fault("a line refers to a point that does not exist"))?;
+                corners.push(self.seeds.facet_points[*point as usize]);
+            }
+            corners.dedup();
+            if corners.len() > 1 {
+                let range = Interval::new(0.0, (corners.len() - 1) as f64);
+                let curve = Curve::Polyline(Polyline { points: corners }).into();
+                let entity = self.table.entity(index);
+                self.seeds.free_curves.push(FreeCurve {
+                    entity,
+                    curve,
+                    range,
+                    color: look.curve.or(look.surface),
+                });
+            }
+        }
+        Ok(())
     }
 
     fn reposition(&mut self, index: usize, context: Context) -> DAffine3 {
@@ -128,7 +170,7 @@ impl<'t> PartBuilder<'t> {
     fn facets(&mut self, index: usize, context: Context, map: DAffine3) -> Outcome<Facets> {
         let kind = self.table.kind(index);
         let mut attributes = self.table.attributes(index).after(1);
-        let (base, count) = self.coordinates(attributes.reference("coordinates")?, context, map)?;
+        let points = self.coordinates(attributes.reference("coordinates")?, context, map)?;
         attributes.skip(1);
         let normals = triples(&mut attributes, "normals")?;
         if matches!(kind, Kind::TriangulatedFace | Kind::ComplexTriangulatedFace) {
@@ -144,39 +186,37 @@ impl<'t> PartBuilder<'t> {
             triangles
         };
         let fault = || attributes.fault("a triangle refers to a point that does not exist");
-        let corners = Corners { base, count, point_of, normals, map };
+        let corners = Corners { points, point_of, normals, map };
         corners.facets(&triangles).ok_or_else(fault)
     }
 
-    /// The points of a `coordinates_list` in the part's own, as (first, count).
-    fn coordinates(&mut self, index: usize, context: Context, map: DAffine3) -> Outcome<(u32, usize)> {
+    /// Where the points of a `coordinates_list` lie among the part's own.
+    fn coordinates(&mut self, index: usize, context: Context, map: DAffine3) -> Outcome<Arc<[u32]>> {
         let identity = map == DAffine3::IDENTITY;
-        if identity && let Some(&known) = self.seeds.coordinates_of.get(&index) {
-            return Ok(known);
+        if identity && let Some(known) = self.seeds.coordinates_of.get(&index) {
+            return Ok(known.clone());
         }
         if self.table.kind(index) != Kind::CoordinatesList {
             return Err(self.reader(context).unexpected(index, "list of coordinates"));
         }
         let mut attributes = self.table.attributes(index).after(2);
         let points = triples(&mut attributes, "coordinates")?;
-        let base = self.seeds.facet_points.len();
-        let found = (base as u32, points.len());
-        if base + points.len() > u32::MAX as usize {
+        if self.seeds.facet_points.len() + points.len() > u32::MAX as usize {
             return Err(Fault::new(self.table.id(index), "has too many points"));
         }
         let scale = context.units.length_mm;
-        self.seeds.facet_points.extend(points.iter().map(|&point| map.transform_point3(point * scale)));
+        let placed = points.iter().map(|&point| self.seeds.facet_point(map.transform_point3(point * scale)));
+        let placed: Arc<[u32]> = placed.collect();
         if identity {
-            self.seeds.coordinates_of.insert(index, found);
+            self.seeds.coordinates_of.insert(index, placed.clone());
         }
-        Ok(found)
+        Ok(placed)
     }
 }
 
 /// What a face's triangles refer to.
 struct Corners {
-    base: u32,
-    count: usize,
+    points: Arc<[u32]>,
     point_of: Vec<usize>,
     normals: Vec<DVec3>,
     map: DAffine3,
@@ -216,7 +256,7 @@ impl Corners {
         } else {
             self.point_of.get(corner.checked_sub(1)?)?.checked_sub(1)?
         };
-        (local < self.count).then_some(self.base + local as u32)
+        self.points.get(local).copied()
     }
 
     /// The normal of a corner: one for all, or one for each.

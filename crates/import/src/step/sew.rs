@@ -1,0 +1,164 @@
+//! Solids whose faces do not share their edges, though the edges lie on each other.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use trimloop_brep::{Body, BodyKind, Diagnostic, Diagnostics, Edge, EdgeId, Part, Severity, VertexId};
+
+/// How far apart edges may lie to be one, millimetres, at least and at most; between them the file's uncertainty
+/// counts.
+const REACH_MM: [f64; 2] = [1e-6, 1e-3];
+
+/// Makes faces of a solid share the edges that coincide. Edges that two faces share already stay as they are.
+pub(crate) fn sew(part: &mut Part, diagnostics: &mut Diagnostics) {
+    let reach = part.uncertainty_mm.clamp(REACH_MM[0], REACH_MM[1]);
+    let mut uses = vec![0u32; part.edges.len()];
+    let mut merged = FxHashMap::default();
+    for index in 0..part.bodies.len() {
+        if part.bodies[index].kind != BodyKind::Solid {
+            continue;
+        }
+        let free = free_edges(part, &part.bodies[index], &mut uses);
+        if free.len() < 2 {
+            continue;
+        }
+        let sewn = sew_edges(part, index, &free, reach, &mut merged);
+        if sewn > 0 {
+            let entity = part.bodies[index].entity;
+            let message = format!("{sewn} edges of solid {entity} that lie on others were joined with them.");
+            diagnostics.push(Diagnostic::new(Severity::Warning, "edges-sewn", entity, message));
+        }
+    }
+    if !merged.is_empty() {
+        let root = |id: VertexId| merged.get(&id).copied().unwrap_or(id);
+        for edge in &mut part.edges {
+            (edge.start, edge.end) = (root(edge.start), root(edge.end));
+        }
+    }
+}
+
+/// The edges that the body's faces use once in all, in order. `uses` is all zero before and after.
+fn free_edges(part: &Part, body: &Body, uses: &mut [u32]) -> Vec<EdgeId> {
+    let mut used: Vec<EdgeId> = Vec::new();
+    for edge in edges_of(part, body) {
+        uses[edge as usize] += 1;
+        if uses[edge as usize] == 1 {
+            used.push(edge);
+        }
+    }
+    let mut free: Vec<EdgeId> = used.iter().copied().filter(|&edge| uses[edge as usize] == 1).collect();
+    used.iter().for_each(|&edge| uses[edge as usize] = 0);
+    free.sort_unstable();
+    free
+}
+
+fn edges_of<'p>(part: &'p Part, body: &'p Body) -> impl Iterator<Item = EdgeId> + 'p {
+    let faces = body.shells.iter().flat_map(|shell| &shell.faces).map(|used| &part.faces[used.face as usize]);
+    faces.flat_map(|face| &face.loops).flat_map(|bound| &bound.coedges).map(|coedge| coedge.edge)
+}
+
+/// Joins the pairs among `free`; gives how many edges went. Vertices that others stand for now go to `merged`.
+fn sew_edges(
+    part: &mut Part,
+    body: usize,
+    free: &[EdgeId],
+    reach: f64,
+    merged: &mut FxHashMap<VertexId, VertexId>,
+) -> usize {
+    let Some(vertex) = coincident_vertices(part, free, reach) else { return 0 };
+    let root = |id: VertexId| vertex.get(&id).copied().unwrap_or(id);
+    let mut by_ends: FxHashMap<(VertexId, VertexId), Vec<EdgeId>> = FxHashMap::default();
+    let mut replaced: FxHashMap<EdgeId, (EdgeId, bool)> = FxHashMap::default();
+    for &id in free {
+        let edge = &part.edges[id as usize];
+        let (start, end) = (root(edge.start), root(edge.end));
+        let waiting = by_ends.entry((start.min(end), start.max(end))).or_default();
+        let partner = waiting.iter().position(|&other| coincide(edge, &part.edges[other as usize], reach));
+        match partner {
+            Some(place) => {
+                let other = waiting.swap_remove(place);
+                let kept = &part.edges[other as usize];
+                let turned = if start == end { turns_back(edge, kept) } else { root(kept.start) != start };
+                replaced.insert(id, (other, turned));
+            }
+            None => waiting.push(id),
+        }
+    }
+    if replaced.is_empty() {
+        return 0;
+    }
+    let faces: Vec<_> =
+        part.bodies[body].shells.iter().flat_map(|shell| &shell.faces).map(|f| f.face).collect();
+    for face in faces {
+        for coedge in part.faces[face as usize].loops.iter_mut().flat_map(|bound| &mut bound.coedges) {
+            if let Some(&(edge, turned)) = replaced.get(&coedge.edge) {
+                coedge.edge = edge;
+                coedge.reversed ^= turned;
+                coedge.pcurve = None;
+            }
+        }
+    }
+    merged.extend(vertex);
+    replaced.len()
+}
+
+/// For the ends of free edges, the first vertex that lies at the same place; `None` where an edge would shrink to
+/// nothing.
+fn coincident_vertices(part: &Part, free: &[EdgeId], reach: f64) -> Option<FxHashMap<VertexId, VertexId>> {
+    let mut ends: Vec<VertexId> =
+        free.iter().flat_map(|&id| [part.edges[id as usize].start, part.edges[id as usize].end]).collect();
+    ends.sort_unstable();
+    ends.dedup();
+    let cell = |point: DVec3| (point / (4.0 * reach)).floor().to_array().map(|x| x as i64);
+    let mut grid: FxHashMap<[i64; 3], Vec<VertexId>> = FxHashMap::default();
+    let mut first = FxHashMap::default();
+    for id in ends {
+        let point = part.vertices[id as usize].point;
+        let [x, y, z] = cell(point);
+        let near = (-1..=1).flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [i, j, k])));
+        let found = near.filter_map(|[i, j, k]| {
+            grid.get(&[x.saturating_add(i), y.saturating_add(j), z.saturating_add(k)])
+        });
+        let found =
+            found.flatten().find(|&&other| part.vertices[other as usize].point.distance(point) <= reach);
+        match found {
+            Some(&other) => drop(first.insert(id, other)),
+            None => grid.entry([x, y, z]).or_default().push(id),
+        }
+    }
+    let root = |id: VertexId| first.get(&id).copied().unwrap_or(id);
+    let shrinks = |edge: &Edge| edge.start != edge.end && root(edge.start) == root(edge.end);
+    (!free.iter().any(|&id| shrinks(&part.edges[id as usize]))).then_some(first)
+}
+
+/// Whether two edges between the same vertices run along the same line.
+fn coincide(a: &Edge, b: &Edge, reach: f64) -> bool {
+    [0.25, 0.5, 0.75].iter().all(|&share| {
+        let point = a.curve.point(a.range.at(share));
+        b.curve.project(point, None).distance <= reach
+            && nearest_share(b, point).is_some_and(|s| (0.0..=1.0).contains(&s))
+    })
+}
+
+/// Where along an edge, as a share of its range, the point nearest to `point` lies.
+fn nearest_share(edge: &Edge, point: DVec3) -> Option<f64> {
+    let mut t = edge.curve.project(point, None).t;
+    if let Some(period) = edge.curve.period() {
+        while t < edge.range.start {
+            t += period;
+        }
+        while t - period >= edge.range.start {
+            t -= period;
+        }
+    }
+    let share = (t - edge.range.start) / edge.range.length();
+    share.is_finite().then_some(share)
+}
+
+/// Whether two closed edges run around in opposite directions.
+fn turns_back(a: &Edge, b: &Edge) -> bool {
+    let t = a.range.at(0.5);
+    let along_a = a.curve.derivatives(t)[1];
+    let foot = b.curve.project(a.curve.point(t), None);
+    let along_b = b.curve.derivatives(foot.t)[1];
+    (along_a.dot(along_b) < 0.0) != (a.same_sense != b.same_sense)
+}
