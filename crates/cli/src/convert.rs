@@ -7,17 +7,18 @@ use anyhow::{Context, bail};
 use rayon::prelude::*;
 use trimloop_brep::Model;
 use trimloop_gltf::{GltfOptions, Written};
-use trimloop_import::ImportOptions;
+use trimloop_import::{ImportOptions, Parsed};
 use trimloop_mesh::{Cancelled, MeshOptions, PartMesh};
 
 use crate::arguments::ConvertArguments;
 use crate::contained::contained;
 use crate::draft::{self, Draft};
 use crate::interrupt;
+use crate::message;
 use crate::outcome::Outcome;
 use crate::plan::{self, Job, Target};
 use crate::progress::Progress;
-use crate::report::{self, Report};
+use crate::report::{self, Report, Seconds};
 use crate::report_sink::ReportSink;
 use crate::summary;
 
@@ -36,7 +37,7 @@ pub fn run(arguments: &ConvertArguments) -> anyhow::Result<Outcome> {
                 break;
             }
             Err(error) => {
-                let message = format!("{error:#}");
+                let message = message::of(&error);
                 eprintln!("error: {}: {message}", job.input.display());
                 reports.add_failure(job, &message)?;
                 Outcome::Failed
@@ -52,23 +53,23 @@ pub fn run(arguments: &ConvertArguments) -> anyhow::Result<Outcome> {
 fn convert(job: &Job, arguments: &ConvertArguments, reports: &mut ReportSink) -> anyhow::Result<Outcome> {
     // Now rather than after minutes of work: can the output be written?
     job.target.files().try_for_each(|file| Draft::beside(file).map(drop))?;
-    let start = Instant::now();
-    let mut model = trimloop_import::read(&job.input, &ImportOptions::default())?;
+    let mut clock = Clock::start();
+    let parsed = Parsed::read(&job.input, &ImportOptions::default())?;
+    let read = clock.lap()?;
+    let mut model = parsed.import()?;
+    drop(parsed);
     if !arguments.skip_hidden {
         model.show_hidden();
     }
-    let imported = Instant::now();
+    let import = clock.lap()?;
     let meshes = mesh(&model, &arguments.mesh_options(), arguments.quiet)?;
-    let meshed = Instant::now();
+    let mesh = clock.lap()?;
     let (mut drafts, content) = write(&job.target, &model, &meshes, &arguments.gltf_options())?;
-    let written = Instant::now();
+    let write = clock.lap()?;
 
     let mut report = Report::new(job, &model, &meshes, &content, arguments.report_faces);
     report.bytes = std::fs::metadata(&job.input).map_or(0, |metadata| metadata.len());
-    report.seconds.import = (imported - start).as_secs_f64();
-    report.seconds.mesh = (meshed - imported).as_secs_f64();
-    report.seconds.write = (written - meshed).as_secs_f64();
-    report.seconds.total = (written - start).as_secs_f64();
+    report.seconds = Seconds { read, import, mesh, write, total: read + import + mesh + write };
     refuse_nothing(&report, &model, &meshes)?;
     drafts.extend(reports.add(job, &report)?);
     draft::publish(drafts)?;
@@ -130,6 +131,22 @@ fn refuse_nothing(report: &Report, model: &Model, meshes: &[PartMesh]) -> anyhow
 fn outcome(report: &Report, strict: bool) -> Outcome {
     let tally = &report.totals.tally;
     if tally.lost > 0 || strict && tally.approximated > 0 { Outcome::Incomplete } else { Outcome::Good }
+}
+
+/// Tells what a stage took.
+struct Clock(Instant);
+
+impl Clock {
+    fn start() -> Self {
+        Self(Instant::now())
+    }
+
+    /// Seconds since the last lap; fails where a stop has been asked for.
+    fn lap(&mut self) -> anyhow::Result<f64> {
+        interrupt::check()?;
+        let last = std::mem::replace(&mut self.0, Instant::now());
+        Ok((self.0 - last).as_secs_f64())
+    }
 }
 
 /// Starts the workers; their stacks are as large as the main thread's usually is.

@@ -113,10 +113,10 @@ fn temporary(target: &Path) -> io::Result<NamedTempFile> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    // Without the folder that tempfile adds to the message, and without its own wording.
-    builder.tempfile_in(folder).map_err(|error| match error.raw_os_error() {
-        Some(code) => io::Error::from_raw_os_error(code),
-        None => io::Error::from(error.kind()),
+    // Without the name of the temporary file, which would only confuse.
+    builder.tempfile_in(folder).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => io::Error::other("its folder does not exist"),
+        kind => io::Error::from(kind),
     })
 }
 

@@ -11,7 +11,7 @@ use crate::arguments::InspectArguments;
 use crate::contained::contained;
 use crate::outcome::Outcome;
 use crate::report::{DiagnosticReport, surface_kind};
-use crate::{inspect_text, manual};
+use crate::{inspect_text, manual, message};
 
 /// Describes every input on standard output.
 pub fn run(arguments: &InspectArguments) -> anyhow::Result<Outcome> {
@@ -28,7 +28,7 @@ pub fn run(arguments: &InspectArguments) -> anyhow::Result<Outcome> {
                 worst = worst.max(manual::print(text.as_bytes())?);
             }
             Err(error) => {
-                eprintln!("error: {}: {error:#}", input.display());
+                eprintln!("error: {}: {}", input.display(), message::of(&error));
                 worst = Outcome::Failed;
             }
         }

@@ -8,6 +8,7 @@ mod inspect;
 mod inspect_text;
 mod interrupt;
 mod manual;
+mod message;
 mod outcome;
 mod plan;
 mod progress;
@@ -32,7 +33,7 @@ fn main() -> ExitCode {
         Command::Man { folder } => manual::pages(folder.as_deref()),
     };
     let outcome = result.unwrap_or_else(|error| {
-        eprintln!("error: {error:#}");
+        eprintln!("error: {}", message::of(&error));
         Outcome::Failed
     });
     ExitCode::from(outcome.code())

@@ -65,10 +65,31 @@ pub enum ImportError {
     Nothing(String),
 }
 
-/// Reads a CAD file, whatever its format (by content, not by name).
+/// A CAD file whose text has been read, and whose meaning has not.
+#[derive(Debug)]
+pub enum Parsed {
+    /// ISO 10303-21.
+    Step(Exchange),
+}
+
+impl Parsed {
+    /// Reads a CAD file, whatever its format (by content, not by name).
+    pub fn read(path: &Path, options: &ImportOptions) -> Result<Self, ImportError> {
+        let read = ReadOptions { max_bytes: options.max_unpacked_bytes, ..ReadOptions::default() };
+        Ok(Self::Step(Exchange::read(path, &read)?))
+    }
+
+    /// What it means.
+    pub fn import(&self) -> Result<Model, ImportError> {
+        match self {
+            Self::Step(exchange) => import_step(exchange),
+        }
+    }
+}
+
+/// The exact model of a CAD file: [`Parsed::read`], then [`Parsed::import`].
 pub fn read(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
-    let read = ReadOptions { max_bytes: options.max_unpacked_bytes, ..ReadOptions::default() };
-    import_step(&Exchange::read(path, &read)?)
+    Parsed::read(path, options)?.import()
 }
 
 /// The exact model of a parsed STEP file.
