@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use tempfile::{NamedTempFile, TempPath};
 
-use crate::interrupt;
+use crate::interrupt::{self, Temporary};
 
 /// A file in the making. Dropped before [`publish`], it leaves nothing behind.
 pub struct Draft {
     target: PathBuf,
     /// The temporary name; none where the target is no regular file (`/dev/stdout`, a pipe) and is written directly.
-    path: Option<TempPath>,
+    path: Option<(TempPath, Temporary)>,
     out: BufWriter<File>,
 }
 
@@ -38,7 +38,8 @@ impl Draft {
         if let Some(metadata) = existing {
             file.set_permissions(metadata.permissions())?;
         }
-        Ok(Self { target, path: Some(path), out: buffered(file) })
+        let temporary = Temporary::new(&path);
+        Ok(Self { target, path: Some((path, temporary)), out: buffered(file) })
     }
 
     /// The file that this will become.
@@ -50,7 +51,7 @@ impl Draft {
     fn persist(self) -> io::Result<()> {
         self.out.into_inner().map_err(io::IntoInnerError::into_error)?;
         match self.path {
-            Some(path) => path.persist(&self.target).map_err(|error| error.error),
+            Some((path, _)) => path.persist(&self.target).map_err(|error| error.error),
             None => Ok(()),
         }
     }
