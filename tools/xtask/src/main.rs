@@ -4,10 +4,12 @@ mod command;
 mod deviation;
 mod validate_gltf;
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::{Parser, Subcommand};
+use trimloop_tests::fixture;
 
 use crate::command::{cargo, run};
 
@@ -71,8 +73,22 @@ fn main() -> anyhow::Result<()> {
 }
 
 fn fuzz(root: &Path, target: &str, minutes: u32) -> anyhow::Result<()> {
+    let [corpus, seeds] = ["corpus", "seeds"].map(|folder| root.join("fuzz").join(folder).join(target));
+    std::fs::create_dir_all(&corpus)?;
+    std::fs::create_dir_all(&seeds)?;
+    // The whole path starts from the fixtures; small ones, as every input is run thousands of times.
+    for fixture in fixture::all().into_iter().filter(|_| target == "mesh") {
+        if std::fs::metadata(&fixture.path)?.len() < 24 << 10 {
+            std::fs::copy(&fixture.path, corpus.join(fixture.name.replace('/', "-")))?;
+        }
+    }
     let seconds = format!("-max_total_time={}", 60 * minutes);
-    cargo(root, ["+nightly", "fuzz", "run", target, "--", &seconds])
+    let limits = ["-dict=fuzz/part21.dict", "-timeout=10", "-rss_limit_mb=2048", &seconds].map(OsStr::new);
+    let run = ["+nightly", "fuzz", "run", "-O", target].map(OsStr::new);
+    cargo(
+        root,
+        run.into_iter().chain([corpus.as_os_str(), seeds.as_os_str(), OsStr::new("--")]).chain(limits),
+    )
 }
 
 /// The workspace's folder.
