@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use trimloop_geom::Surface;
 use trimloop_trim::{EdgeSamples, Tolerance, TrimDomain, TrimVertex};
 
+use crate::crease::Creases;
 use crate::draft::DraftVertex;
 use crate::seeds::seeds;
 use crate::triangulation::Triangulation;
@@ -13,6 +14,7 @@ use crate::warp::Warp;
 pub(crate) struct Filling<'a> {
     surface: &'a Surface,
     tolerance: Tolerance,
+    creases: Creases,
     warp: Warp,
     triangulation: Triangulation,
     sites: Vec<SiteInSpace>,
@@ -38,6 +40,8 @@ struct SiteInSpace {
     normal: DVec3,
     /// Whether it is one of several sites for a single point: a pole, where the normal is whatever one likes.
     pole: bool,
+    /// Whether the surface's normal jumps here.
+    creased: bool,
 }
 
 impl SiteInSpace {
@@ -66,6 +70,7 @@ impl<'a> Filling<'a> {
         let mut filling = Self {
             surface,
             tolerance,
+            creases: Creases::new(surface, low, high),
             warp,
             sites: Vec::with_capacity(triangulation.len()),
             triangulation,
@@ -98,6 +103,7 @@ impl<'a> Filling<'a> {
             if site as usize == self.sites.len() {
                 let position = domain.point(corner, samples);
                 let normal = self.normal(corner.uv);
+                let creased = self.creases.hold(corner.uv);
                 let lift = position - self.surface.point(corner.uv);
                 self.sites.push(SiteInSpace {
                     uv: corner.uv,
@@ -106,6 +112,7 @@ impl<'a> Filling<'a> {
                     lift,
                     normal,
                     pole,
+                    creased,
                 });
             } else if self.sites[site as usize].point != corner.point {
                 self.merged = true;
@@ -124,6 +131,7 @@ impl<'a> Filling<'a> {
             lift: DVec3::ZERO,
             normal,
             pole: false,
+            creased: self.creases.hold(uv),
         });
         self.next_point += 1;
     }
@@ -198,9 +206,11 @@ impl<'a> Filling<'a> {
             return (None, 0.0);
         }
         let length = sa.position.distance(sb.position);
-        let at = (self.triangulation.at(a) + self.triangulation.at(b)) * 0.5;
-        let off = self.off_surface(at, (sa.on_surface() + sb.on_surface()) * 0.5);
-        let turned = !(sa.pole || sb.pole)
+        // An edge that crosses a crease is split there, for its sides to lie on smooth pieces.
+        let share = self.creases.crossing(sa.uv, sb.uv).unwrap_or(0.5);
+        let at = self.triangulation.at(a).lerp(self.triangulation.at(b), share);
+        let off = self.off_surface(at, sa.on_surface().lerp(sb.on_surface(), share));
+        let turned = !(sa.pole || sb.pole || sa.creased || sb.creased)
             && sa.normal.dot(sb.normal) < (self.tolerance.angular_rad * 1.001).cos()
             && sa.normal != DVec3::ZERO
             && sb.normal != DVec3::ZERO;

@@ -5,6 +5,7 @@
 
 mod assemble;
 mod boundary;
+mod crease;
 mod draft;
 mod ear_clipping;
 mod face;

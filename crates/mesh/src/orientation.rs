@@ -80,11 +80,12 @@ impl Orientation {
     }
 
     fn volume(&self, draft: &FaceDraft, face: usize, shared: &[DVec3]) -> f64 {
+        let origin = shared.first().copied().unwrap_or_default();
         let sum: f64 = draft
             .triangles
             .iter()
             .map(|t| {
-                let [a, b, c] = t.map(|i| draft.position(draft.vertices[i as usize].point, shared));
+                let [a, b, c] = t.map(|i| draft.position(draft.vertices[i as usize].point, shared) - origin);
                 a.dot(b.cross(c)) / 6.0
             })
             .sum();

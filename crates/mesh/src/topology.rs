@@ -41,6 +41,8 @@ fn count_edges(faces: &[usize], drafts: &[FaceDraft], turned: &[bool]) -> (usize
 
 fn volume(mesh: &PartMesh, face: usize) -> f64 {
     let face = &mesh.faces[face];
-    let corner = |i: u32| mesh.positions[face.vertices[i as usize].position as usize];
+    // Far from the origin, products of coordinates would swallow the volume.
+    let origin = mesh.positions.first().copied().unwrap_or_default();
+    let corner = |i: u32| mesh.positions[face.vertices[i as usize].position as usize] - origin;
     face.triangles.iter().map(|t| t.map(corner)).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()
 }

@@ -31,10 +31,10 @@ pub(crate) fn assemble(
         return whole(chart, Vec::new(), domain);
     }
     let (around, flat): (Vec<_>, Vec<_>) = loops.into_iter().partition(|l| l.winding != [0, 0]);
-    let flat: Vec<Vec<TrimVertex>> = flat.into_iter().map(|l| l.vertices).collect();
     if around.is_empty() {
         return flat_piece(chart, flat, domain);
     }
+    let flat: Vec<Vec<TrimVertex>> = flat.into_iter().map(|l| l.vertices).collect();
     let axis = match (around.iter().all(|l| l.winding[1] == 0), around.iter().all(|l| l.winding[0] == 0)) {
         (true, _) => Direction::U,
         (_, true) => Direction::V,
@@ -44,15 +44,14 @@ pub(crate) fn assemble(
 }
 
 /// Loops that go round nothing: the largest is the boundary, unless it runs clockwise round a hole in a closed surface.
-fn flat_piece(
-    chart: &Chart<'_>,
-    loops: Vec<Vec<TrimVertex>>,
-    domain: &mut TrimDomain,
-) -> Result<(), TrimError> {
+fn flat_piece(chart: &Chart<'_>, loops: Vec<UnrolledLoop>, domain: &mut TrimDomain) -> Result<(), TrimError> {
+    let seamed: Vec<bool> = loops.iter().map(|l| l.seamed).collect();
+    let loops: Vec<Vec<TrimVertex>> = loops.into_iter().map(|l| l.vertices).collect();
     let area = |l: &Vec<TrimVertex>| signed_area(l.iter().map(|v| v.uv));
     let outer = (0..loops.len()).max_by(|&i, &j| area(&loops[i]).abs().total_cmp(&area(&loops[j]).abs()));
     let Some(outer) = outer else { return Ok(()) };
-    if area(&loops[outer]) < 0.0 && closes_up(chart.surface) {
+    // A loop that brings its own seam encloses the face whatever its direction, which some writers get wrong.
+    if area(&loops[outer]) < 0.0 && !seamed[outer] && closes_up(chart.surface) {
         return whole(chart, loops, domain);
     }
     let mut loops = loops;

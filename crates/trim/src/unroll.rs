@@ -13,6 +13,8 @@ pub(crate) struct UnrolledLoop {
     pub vertices: Vec<TrimVertex>,
     /// How often it goes round in u and in v.
     pub winding: [i32; 2],
+    /// Whether it runs over some edge both ways: it closes over a seam of its own, and its inside is what it encloses.
+    pub seamed: bool,
 }
 
 /// A sample before unrolling.
@@ -44,13 +46,11 @@ pub(crate) fn unroll(
     if let Some(first) = raw.iter().position(|r| r.singular.is_none()) {
         raw.rotate_left(first);
     }
-    Ok(Unroller {
-        periods,
-        singularities: &singularities,
-        angular_rad,
-        out: Vec::with_capacity(raw.len() + 4),
-    }
-    .run(&raw))
+    let seamed =
+        l.coedges.iter().any(|c| l.coedges.iter().any(|d| d.edge == c.edge && d.reversed != c.reversed));
+    let out = Vec::with_capacity(raw.len() + 4);
+    let unroller = Unroller { periods, singularities: &singularities, angular_rad, out };
+    Ok(UnrolledLoop { seamed, ..unroller.run(&raw) })
 }
 
 fn gather(l: &Loop, face: FaceId, samples: &EdgeSamples) -> Result<Vec<Raw>, TrimError> {
@@ -113,6 +113,7 @@ impl Unroller<'_> {
         UnrolledLoop {
             vertices: self.out,
             winding: [turns(end.x - first.x, self.periods[0]), turns(end.y - first.y, self.periods[1])],
+            seamed: false,
         }
     }
 

@@ -1,0 +1,101 @@
+//! Lines inside a surface at which its normal jumps.
+
+use glam::DVec2;
+use trimloop_geom::{Direction, Interval, Surface};
+
+/// The isoparametric lines inside a domain at which a surface's normal jumps: knots of full multiplicity, corners of a
+/// profile.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Creases {
+    /// Parameters in u, then in v.
+    lines: [Vec<f64>; 2],
+    /// Parameters within this of a line are on it, per direction.
+    near: [f64; 2],
+}
+
+/// A jump of the normal by less than this is none.
+const JUMP_RAD: f64 = 0.02;
+/// More breaks than this are not looked at: they are a spline's spans, not corners.
+const MAX_BREAKS: usize = 128;
+
+impl Creases {
+    /// Finds the creases of `surface` over `low`..`high`.
+    pub fn new(surface: &Surface, low: DVec2, high: DVec2) -> Self {
+        let mut out = Self { near: ((high - low) * 1e-9).into(), ..Self::default() };
+        for (k, direction) in [Direction::U, Direction::V].into_iter().enumerate() {
+            let candidates = candidates(surface, direction, low, high);
+            out.lines[k] = candidates.into_iter().filter(|&at| jumps(surface, k, at, low, high)).collect();
+        }
+        out
+    }
+
+    /// Whether a point lies on a crease.
+    pub fn hold(&self, uv: DVec2) -> bool {
+        let p: [f64; 2] = uv.into();
+        (0..2).any(|k| self.lines[k].iter().any(|&at| (p[k] - at).abs() <= self.near[k]))
+    }
+
+    /// Where the segment from `a` to `b` first crosses a crease, as a share of its length.
+    pub fn crossing(&self, a: DVec2, b: DVec2) -> Option<f64> {
+        let (p, q): ([f64; 2], [f64; 2]) = (a.into(), b.into());
+        let share = |k: usize, at: f64| {
+            let inside = p[k].min(q[k]) + self.near[k] < at && at < p[k].max(q[k]) - self.near[k];
+            inside.then(|| (at - p[k]) / (q[k] - p[k]))
+        };
+        (0..2).find_map(|k| self.lines[k].iter().find_map(|&at| share(k, at)))
+    }
+}
+
+fn candidates(surface: &Surface, direction: Direction, low: DVec2, high: DVec2) -> Vec<f64> {
+    let k = usize::from(direction == Direction::V);
+    let range = Interval::new(low.to_array()[k], high.to_array()[k]);
+    let breaks = match surface {
+        Surface::Nurbs(nurbs) => full_knots(nurbs.knots()[k], nurbs.degrees()[k]),
+        Surface::Extrusion { .. } | Surface::Revolution { .. } | Surface::Offset { .. } => {
+            surface.breakpoints(direction, range)
+        }
+        _ => Vec::new(),
+    };
+    let margin = range.length() * 1e-9;
+    let inner = breaks.into_iter().filter(|&at| at > range.start + margin && at < range.end - margin);
+    let inner: Vec<f64> = inner.collect();
+    if inner.len() > MAX_BREAKS { Vec::new() } else { inner }
+}
+
+/// Distinct knots whose multiplicity is at least the degree.
+fn full_knots(knots: &[f64], degree: usize) -> Vec<f64> {
+    let same = |a: &f64, b: &f64| (a - b).abs() <= 1e-12 * a.abs().max(b.abs()).max(1e-12);
+    knots.chunk_by(same).filter(|run| run.len() >= degree).map(|run| run[0]).collect()
+}
+
+/// Whether the normal jumps across the line somewhere.
+fn jumps(surface: &Surface, k: usize, at: f64, low: DVec2, high: DVec2) -> bool {
+    let extent = (high - low).to_array()[k];
+    [0.1, 0.3, 0.5, 0.7, 0.9].into_iter().any(|share| {
+        let side = |sign: f64| {
+            let mut p = low.lerp(high, share).to_array();
+            p[k] = at + sign * extent * 1e-6;
+            surface.normal(p.into())
+        };
+        matches!((side(-1.0), side(1.0)), (Some(a), Some(b)) if a.angle_between(b) > JUMP_RAD)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+    use trimloop_geom::{Curve, DVec3, NurbsCurve};
+
+    #[test]
+    fn a_bent_profile_creases_its_extrusion_at_the_corner() {
+        let points = vec![DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0)];
+        let profile =
+            NurbsCurve::new(1, points, Vec::new(), vec![0.0, 0.0, 1.0, 2.0, 2.0]).expect("a bent line");
+        let surface = Surface::Extrusion { profile: Arc::new(Curve::Nurbs(profile)), direction: DVec3::Z };
+        let creases = Creases::new(&surface, DVec2::ZERO, DVec2::new(2.0, 1.0));
+        assert!(creases.hold(DVec2::new(1.0, 0.3)));
+        assert!(!creases.hold(DVec2::new(0.5, 0.3)));
+        assert_eq!(creases.crossing(DVec2::new(0.5, 0.0), DVec2::new(2.0, 0.0)), Some(1.0 / 3.0));
+    }
+}
