@@ -35,9 +35,13 @@ class Fixture:
     build: Callable[[], object]
     step: StepOptions = field(default_factory=StepOptions)
     #: Largest distance of the exported meshes from the surface, as a part of the box's diagonal.
-    deflection: float = 2e-3
+    deflection: float = 2.5e-3
     #: Largest angle of the exported meshes, radians.
-    angular: float = 0.35
+    angular: float = 0.5
+    #: False where OpenCASCADE misreads the (right) file it wrote: the reference is then the model in memory.
+    reads_back: bool = True
+    #: Whether meshes are exported; not where another fixture's would be the same.
+    meshes: bool = True
     #: Figures known in closed form, which the measured ones must meet: area_mm2, volume_mm3.
     closed_form: dict[str, float] = field(default_factory=dict)
 
@@ -48,6 +52,32 @@ def fixture(name: str, shows: str, *, folder: str = "cadquery", **options):
     def register(build):
         assert (folder, name) not in FIXTURES, name
         FIXTURES[folder, name] = Fixture(name, folder, shows, build, **options)
+        return build
+
+    return register
+
+
+#: Hand-written files by (folder, name).
+HAND: dict[tuple[str, str], "HandWritten"] = {}
+
+
+@dataclass
+class HandWritten:
+    """A file that no CAD tool at hand writes, made entity by entity."""
+
+    name: str
+    folder: str
+    shows: str
+    #: Returns the file (a Part21, text or bytes) and its reference without source and description.
+    build: Callable[[], tuple[object, dict]]
+
+
+def hand(name: str, shows: str, *, folder: str = "hand"):
+    """Registers the decorated function as the builder of the hand-written file `name`."""
+
+    def register(build):
+        assert (folder, name) not in HAND, name
+        HAND[folder, name] = HandWritten(name, folder, shows, build)
         return build
 
     return register

@@ -19,8 +19,7 @@ from OCP.TopAbs import (
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS, TopoDS_Shape
 
-#: Two ways of integrating a face must agree this well (relative) before either is believed.
-AGREEMENT = 1e-4
+from integral import integrate
 
 #: What kinds of surface are called in the references.
 SURFACE_NAMES = {
@@ -60,19 +59,9 @@ def free_edges(shape: TopoDS_Shape) -> list[TopoDS_Shape]:
 
 def surface_kind(face: TopoDS_Shape) -> str:
     """The kind of a face's surface."""
+    if BRep_Tool.Surface_s(TopoDS.Face_s(face)) is None:
+        return "facets"
     return SURFACE_NAMES[BRepAdaptor_Surface(TopoDS.Face_s(face)).GetType().name]
-
-
-def face_area(face: TopoDS_Shape) -> tuple[float, list[float], float]:
-    """Area, centroid, and the relative difference between two ways of integrating."""
-    face = TopoDS.Face_s(face)
-    fixed, adaptive = GProp_GProps(), GProp_GProps()
-    BRepGProp.SurfaceProperties_s(face, fixed, False, False)
-    BRepGProp.SurfaceProperties_s(face, adaptive, 1e-10, False)
-    area = adaptive.Mass()
-    doubt = abs(area - fixed.Mass()) / max(abs(area), 1e-300)
-    centre = adaptive.CentreOfMass()
-    return area, [centre.X(), centre.Y(), centre.Z()], doubt
 
 
 def volume(shape: TopoDS_Shape) -> float | None:
@@ -80,12 +69,7 @@ def volume(shape: TopoDS_Shape) -> float | None:
     solids = subshapes(shape, TopAbs_SOLID)
     if not solids:
         return None
-    total = 0.0
-    for solid in solids:
-        properties = GProp_GProps()
-        BRepGProp.VolumeProperties_s(solid, properties, 1e-10, False, False)
-        total += properties.Mass()
-    return total
+    return sum(integrate(face).flux_mm3 for solid in solids for face in faces(solid))
 
 
 def bounding_box(shape: TopoDS_Shape) -> list[list[float]] | None:

@@ -24,6 +24,7 @@ from OCP.XCAFDoc import (
 )
 
 import exact
+from integral import integrate
 from xcaf import get_name, new_document
 
 #: The colour of what has none.
@@ -49,11 +50,11 @@ class StepFile:
         """Each face entity once: id, surface kind, exact area and centroid in its part's coordinates."""
         session = self._reader.ChangeReader().WS()
         model, transfer = session.Model(), session.TransferReader()
-        ids = re.findall(rb"^\s*#(\d+)\s*=", self.path.read_bytes(), re.M)
+        ids = record_ids(self.path)
         assert len(ids) == model.NbEntities(), f"{self.path}: {len(ids)} records, {model.NbEntities()} entities"
         # The model's own look-up by entity fails through the binding; the entities' identity does not.
         entities = [model.Value(index + 1) for index in range(len(ids))]
-        id_of = {id(entity): int(entity_id) for entity, entity_id in zip(entities, ids)}
+        id_of = {id(entity): entity_id for entity, entity_id in zip(entities, ids)}
         pieces: dict[int, list[TopoDS_Shape]] = {}
         for label in {label.Tag(): label for label in self._part_labels()}.values():
             for face in exact.faces(XCAFDoc_ShapeTool.GetShape_s(label)):
@@ -97,7 +98,7 @@ class StepFile:
                     "solids": len(exact.subshapes(shape, TopAbs_SOLID)),
                     "faces": len(exact.faces(shape)),
                     "closed": exact.is_closed(shape),
-                    "area_mm2": sum(exact.face_area(face)[0] for face in exact.faces(shape)),
+                    "area_mm2": sum(integrate(face).area_mm2 for face in exact.faces(shape)),
                     "volume_mm3": exact.volume(shape),
                 }
             )
@@ -153,7 +154,7 @@ class StepFile:
                     painted += [(face, colour) for face in exact.faces(holder)]
         for face in exact.faces(shape):
             above = next((colour for other, colour in painted if other.IsSame(face)), own)
-            areas[self._subshape_colour(label, face) or above or NO_COLOUR] += exact.face_area(face)[0]
+            areas[self._subshape_colour(label, face) or above or NO_COLOUR] += integrate(face).area_mm2
 
     def _subshape_colour(self, label: TDF_Label, shape: TopoDS_Shape) -> str | None:
         found = TDF_Label()
@@ -173,6 +174,12 @@ def colour_of(label: TDF_Label) -> str | None:
     return None
 
 
+def record_ids(path: Path) -> list[int]:
+    """The instance names of a file in the order of their records, wherever the line breaks are."""
+    text = re.sub(rb"'(?:[^']|'')*'|/\*.*?\*/", b"", path.read_bytes(), flags=re.S)
+    return [int(number) for number in re.findall(rb"#\s*(\d+)\s*=", text)]
+
+
 def matrix(location: TopLoc_Location) -> list[list[float]]:
     """Three rows of four: rotation, then translation in millimetres."""
     transform = location.Transformation()
@@ -181,9 +188,9 @@ def matrix(location: TopLoc_Location) -> list[list[float]]:
 
 def face_entry(entity_id: int | None, pieces: list[TopoDS_Shape]) -> dict:
     """A face's line in the reference."""
-    figures = [exact.face_area(piece) for piece in pieces]
-    area = sum(figure[0] for figure in figures)
-    centroid = [sum(f[0] * f[1][axis] for f in figures) / area if area else 0.0 for axis in range(3)]
+    figures = [integrate(piece) for piece in pieces]
+    area = sum(figure.area_mm2 for figure in figures)
+    centroid = [sum(f.area_mm2 * f.centroid_mm[axis] for f in figures) / area if area else 0.0 for axis in range(3)]
     return {
         "entity": f"#{entity_id}" if entity_id else None,
         "surface": exact.surface_kind(pieces[0]),
