@@ -35,9 +35,9 @@ class Fixture:
     build: Callable[[], object]
     step: StepOptions = field(default_factory=StepOptions)
     #: Largest distance of the exported meshes from the surface, as a part of the box's diagonal.
-    deflection: float = 2.5e-3
+    deflection: float = 3e-3
     #: Largest angle of the exported meshes, radians.
-    angular: float = 0.5
+    angular: float = 0.6
     #: False where OpenCASCADE misreads the (right) file it wrote: the reference is then the model in memory.
     reads_back: bool = True
     #: Whether meshes are exported; not where another fixture's would be the same.

@@ -3,7 +3,7 @@
 OpenCASCADE's own integrals are wrong in the third digit on some spline faces, and on planes with spline edges. Here, with
 `G(u, v)` the integrand times the surface element, the integral over the face is the boundary integral of
 `(integral of G from the surface's first u to u) dv`. Both are Gauss quadratures between the knots, refined until they
-agree to ten digits.
+agree to eleven digits.
 """
 
 from __future__ import annotations
@@ -30,6 +30,10 @@ from scipy.integrate import quad_vec
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 #: Spans of surfaces that turn are no longer than this, so that sixteen points suffice.
 LONGEST_SPAN = pi / 2
+
+
+#: Error allowed, as a part of what the boundary contributes in all.
+PRECISION = 1e-11
 
 
 @dataclass
@@ -101,12 +105,13 @@ def _integrate(key: cq.Face) -> FaceIntegrals:
     v_knots = TColStd_Array1OfReal(1, strip.surface.NbVIntervals(GeomAbs_CN) + 1)
     strip.surface.VIntervals(v_knots, GeomAbs_CN)
     breaks = [v_knots.Value(i) for i in range(1, v_knots.Length() + 1)]
+    runs = [run for edge in _edges(forward) for run in _runs(edge, forward, strip, breaks)]
+    # Parts of the boundary may contribute nothing: what is precise enough is measured against the whole.
+    scale = sum(abs(b - a) * abs(speed(a + (b - a) * t)[0]) / 4 for speed, a, b, _ in runs for t in (0.1, 0.4, 0.6, 0.9))
     total = np.zeros(5)
-    explorer = TopExp_Explorer(forward, TopAbs_EDGE)
-    while explorer.More():
-        edge = TopoDS.Edge_s(explorer.Current())
-        total += _along(edge, forward, strip, breaks)
-        explorer.Next()
+    for speed, a, b, sign in runs:
+        value, _ = quad_vec(speed, a, b, epsabs=PRECISION * scale, epsrel=0.0, norm=_leading, limit=60)
+        total += sign * value
     area = total[0]
     flux = total[4] * (-1.0 if face.Orientation() == TopAbs_REVERSED else 1.0)
     if area < 0:  # The boundary runs the wrong way round: the face is the inside all the same.
@@ -131,11 +136,20 @@ def _over_triangles(face) -> FaceIntegrals:
     return FaceIntegrals(float(total[0]), [float(c) for c in centroid], float(total[4]))
 
 
-def _along(edge, face, strip: _Strip, v_breaks: list[float]) -> np.ndarray:
-    """The boundary integral along one edge."""
+def _edges(face) -> list:
+    """Every use of an edge by the face; a seam is used twice."""
+    found, explorer = [], TopExp_Explorer(face, TopAbs_EDGE)
+    while explorer.More():
+        found.append(TopoDS.Edge_s(explorer.Current()))
+        explorer.Next()
+    return found
+
+
+def _runs(edge, face, strip: _Strip, v_breaks: list[float]) -> list[tuple]:
+    """The smooth parts of an edge: integrand, first and last parameter, and sign."""
     curve = BRep_Tool.CurveOnSurface_s(edge, face, 0.0, 0.0)
     if curve is None:
-        return np.zeros(5)
+        return []
     first, last = BRep_Tool.Range_s(edge, face)
     adaptor = Geom2dAdaptor_Curve(curve, first, last)
     knots = TColStd_Array1OfReal(1, adaptor.NbIntervals(GeomAbs_CN) + 1)
@@ -149,14 +163,13 @@ def _along(edge, face, strip: _Strip, v_breaks: list[float]) -> np.ndarray:
             return np.zeros(5)
         return strip.upto(uv.X(), uv.Y()) * tangent.Y()
 
-    total = np.zeros(5)
+    sign = -1.0 if edge.Orientation() == TopAbs_REVERSED else 1.0
+    found = []
     for start, end in zip(points, points[1:]):
         crossings = _crossings(adaptor, start, end, v_breaks) + _crossings(adaptor, start, end, strip.knots, 0)
         cuts = sorted({start, *crossings, end})
-        for a, b in zip(cuts, cuts[1:]):
-            value, _ = quad_vec(speed, a, b, epsabs=0.0, epsrel=1e-10, norm=_leading, limit=60)
-            total += value
-    return total * (-1.0 if edge.Orientation() == TopAbs_REVERSED else 1.0)
+        found += [(speed, a, b, sign) for a, b in zip(cuts, cuts[1:])]
+    return found
 
 
 def _leading(integrals: np.ndarray) -> float:

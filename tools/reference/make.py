@@ -14,8 +14,12 @@ sys.path.insert(0, str(Path(__file__).parent))
 import hand  # noqa: E402,F401  (registers the hand-written files)
 import models  # noqa: E402,F401  (registers the fixtures)
 from catalogue import FIXTURES, HAND, Fixture, HandWritten  # noqa: E402
+
 from exact import bounding_box, faces  # noqa: E402
+from freecad_run import make_all as make_freecad  # noqa: E402
+from hand import broken  # noqa: E402
 from mesh_out import write_meshes  # noqa: E402
+from readme import write_tables  # noqa: E402
 from reference import (  # noqa: E402
     disagreements,
     finer_disagreements,
@@ -45,9 +49,10 @@ def make(fixture: Fixture) -> list[str]:
     reference, notes = reference_of(fixture, shape, in_memory, step)
     notes += hold_against_closed_form(reference, fixture.closed_form)
     notes += [f"face without an entity: {face}" for face in reference["face_areas_mm2"] if not face["entity"]]
-    write_reference(stem.with_name(fixture.name + ".reference.json"), {"source": SOURCE, "shows": fixture.shows, **reference})
     if fixture.meshes and faces(shape):
-        write_meshes(fixture.name, model, shape, box, stem, fixture.deflection, fixture.angular)
+        unit = write_meshes(fixture.name, model, shape, box, stem, fixture.deflection, fixture.angular)
+        reference["glb_unit_mm"] = unit
+    write_reference(stem.with_name(fixture.name + ".reference.json"), {"source": SOURCE, "shows": fixture.shows, **reference})
     return notes
 
 
@@ -124,9 +129,13 @@ def main(words: list[str]) -> int:
     """Builds the fixtures whose folder/name contains one of the words, or all."""
     known = [*FIXTURES.values(), *HAND.values()]
     chosen = [f for f in known if not words or any(word in f"{f.folder}/{f.name}" for word in words)]
+    make_freecad(FIXTURES_FOLDER / "freecad", words)
+    if not words or "broken" in words:
+        broken.write_all(FIXTURES_FOLDER / "broken")
     # Each in a process of its own: OpenCASCADE numbers products per process.
     with multiprocessing.get_context("fork").Pool(maxtasksperchild=1) as pool:
         good = pool.map(make_aloud, [(f.folder, f.name) for f in chosen], chunksize=1)
+    write_tables(FIXTURES_FOLDER)
     failed = [fixture.name for fixture, well in zip(chosen, good) if not well]
     print(f"{len(chosen)} fixtures, {len(failed)} to look at:", *failed)
     return bool(failed)

@@ -4,6 +4,7 @@ from hand import (  # noqa: F401
     assemblies,
     curves,
     seamless,
+    sloppy,
     styles,
     surfaces,
     syntax,

@@ -129,12 +129,11 @@ def cone_apex_drilled_away():
 
 @fixture(
     "plate_perforated",
-    "a plane with sixty inner loops",
-    closed_form={"volume_mm3": (120 * 70 - 60 * pi * 9) * 2},
-    angular=0.6,
+    "a plane with twenty-eight inner loops",
+    closed_form={"volume_mm3": (80 * 48 - 28 * pi * 9) * 2},
 )
 def plate_perforated():
-    return cq.Workplane().box(120, 70, 2).faces(">Z").workplane().rarray(11, 11, 10, 6).hole(6)
+    return cq.Workplane().box(80, 48, 2).faces(">Z").workplane().rarray(11, 11, 7, 4).hole(6)
 
 
 @fixture(

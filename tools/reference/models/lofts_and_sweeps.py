@@ -60,7 +60,7 @@ def sweep_round_corners():
     return cq.Workplane("XY").circle(4).circle(3).sweep(path)
 
 
-@fixture("spring", "a circle swept along a helix of three turns", angular=0.9)
+@fixture("spring", "a circle swept along a helix of three turns", deflection=0.01, angular=1.0)
 def spring():
     helix = cq.Wire.makeHelix(pitch=6, height=18, radius=8)
     return cq.Workplane("XZ").center(8, 0).circle(1.2).sweep(cq.Workplane(helix), isFrenet=True)
