@@ -4,34 +4,29 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use trimloop_brep::{Body, BodyKind, Diagnostic, Diagnostics, Edge, EdgeId, Part, Severity, VertexId};
 
-/// How far apart edges may lie to be one, millimetres, at least and at most; between them the file's uncertainty
-/// counts.
-const REACH_MM: [f64; 2] = [1e-6, 1e-3];
+/// How far apart edges may lie to be one, millimetres: the nearest are joined first. The file's uncertainty is no
+/// good guide, it is often the modeller's and not the exporter's.
+const REACHES_MM: [f64; 3] = [1e-6, 1e-3, 2e-2];
 
 /// Makes faces of a solid share the edges that coincide. Edges that two faces share already stay as they are.
 pub(crate) fn sew(part: &mut Part, diagnostics: &mut Diagnostics) {
-    let reach = part.uncertainty_mm.clamp(REACH_MM[0], REACH_MM[1]);
     let mut uses = vec![0u32; part.edges.len()];
-    let mut merged = FxHashMap::default();
     for index in 0..part.bodies.len() {
         if part.bodies[index].kind != BodyKind::Solid {
             continue;
         }
-        let free = free_edges(part, &part.bodies[index], &mut uses);
-        if free.len() < 2 {
-            continue;
+        let mut sewn = 0;
+        for reach in REACHES_MM {
+            let free = free_edges(part, &part.bodies[index], &mut uses);
+            if free.len() < 2 {
+                break;
+            }
+            sewn += sew_edges(part, index, &free, reach);
         }
-        let sewn = sew_edges(part, index, &free, reach, &mut merged);
         if sewn > 0 {
             let entity = part.bodies[index].entity;
             let message = format!("{sewn} edges of solid {entity} that lie on others were joined with them.");
             diagnostics.push(Diagnostic::new(Severity::Warning, "edges-sewn", entity, message));
-        }
-    }
-    if !merged.is_empty() {
-        let root = |id: VertexId| merged.get(&id).copied().unwrap_or(id);
-        for edge in &mut part.edges {
-            (edge.start, edge.end) = (root(edge.start), root(edge.end));
         }
     }
 }
@@ -56,14 +51,8 @@ fn edges_of<'p>(part: &'p Part, body: &'p Body) -> impl Iterator<Item = EdgeId> 
     faces.flat_map(|face| &face.loops).flat_map(|bound| &bound.coedges).map(|coedge| coedge.edge)
 }
 
-/// Joins the pairs among `free`; gives how many edges went. Vertices that others stand for now go to `merged`.
-fn sew_edges(
-    part: &mut Part,
-    body: usize,
-    free: &[EdgeId],
-    reach: f64,
-    merged: &mut FxHashMap<VertexId, VertexId>,
-) -> usize {
+/// Joins the pairs among `free`; gives how many edges went.
+fn sew_edges(part: &mut Part, body: usize, free: &[EdgeId], reach: f64) -> usize {
     let Some(vertex) = coincident_vertices(part, free, reach) else { return 0 };
     let root = |id: VertexId| vertex.get(&id).copied().unwrap_or(id);
     let mut by_ends: FxHashMap<(VertexId, VertexId), Vec<EdgeId>> = FxHashMap::default();
@@ -97,7 +86,11 @@ fn sew_edges(
             }
         }
     }
-    merged.extend(vertex);
+    let used: Vec<EdgeId> = edges_of(part, &part.bodies[body]).collect();
+    for id in used {
+        let edge = &mut part.edges[id as usize];
+        (edge.start, edge.end) = (root(edge.start), root(edge.end));
+    }
     replaced.len()
 }
 
