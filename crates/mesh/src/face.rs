@@ -21,8 +21,16 @@ pub(crate) struct FaceMesher<'a> {
 }
 
 impl FaceMesher<'_> {
+    /// The triangles of one face; should anything below panic, the face is lost and no other.
+    pub fn mesh_guarded(&self, face: FaceId) -> FaceDraft {
+        let attempt = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| self.mesh(face)));
+        attempt.unwrap_or_else(|_| {
+            FaceDraft::empty(FaceStatus::Lost("meshing it failed unexpectedly".into()), self.base())
+        })
+    }
+
     /// The triangles of one face.
-    pub fn mesh(&self, face: FaceId) -> FaceDraft {
+    fn mesh(&self, face: FaceId) -> FaceDraft {
         match &self.part.faces[face as usize].geometry {
             FaceGeometry::Surface(surface) => self.mesh_surface(face, surface),
             FaceGeometry::Facets(facets) => self.take_facets(facets),

@@ -82,12 +82,8 @@ impl<'a> Filling<'a> {
             max_sites,
         };
         filling.place_corners(domain, samples);
-        for &uv in inner.iter() {
-            // Seeds follow the corners in order; those on a corner's place have no site of their own.
-            if filling.sites.len() < filling.triangulation.len() {
-                filling.place_inner(uv);
-            }
-        }
+        let new = std::mem::take(&mut filling.triangulation.inner_is_new);
+        inner.iter().zip(new).filter(|(_, new)| *new).for_each(|(&uv, _)| filling.place_inner(uv));
         Some(filling)
     }
 

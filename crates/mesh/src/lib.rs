@@ -49,7 +49,7 @@ pub fn mesh_part(part: &Part, options: &MeshOptions, monitor: &dyn Monitor) -> R
             if monitor.cancelled() {
                 return Err(Cancelled);
             }
-            let draft = mesher.mesh(face);
+            let draft = mesher.mesh_guarded(face);
             monitor.face_done();
             Ok(draft)
         })

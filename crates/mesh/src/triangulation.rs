@@ -29,6 +29,8 @@ pub(crate) struct Triangulation {
     cdt: Cdt,
     /// Corners of the domain's loops, one after the other, to sites (corners at the same place share one).
     pub site_of_corner: Vec<u32>,
+    /// Per inner point whether it has a site of its own (not when it falls on a corner); these follow the corners'.
+    pub inner_is_new: Vec<bool>,
     /// Pairs of sites that the boundary runs over an even number of times: both sides are alike.
     slits: FxHashSet<(u32, u32)>,
     /// Whether every boundary segment is an edge of the triangulation.
@@ -66,9 +68,12 @@ impl Triangulation {
             })
         };
         let site_of_corner: Vec<u32> = polygons.iter().flatten().map(|&at| site_at(at, &mut sites)).collect();
-        inner.iter().for_each(|&uv| {
+        let mut is_new = |&uv: &DVec2| {
+            let before = sites.len();
             site_at(tame(warp.map(uv)), &mut sites);
-        });
+            sites.len() > before
+        };
+        let inner_is_new: Vec<bool> = inner.iter().map(&mut is_new).collect();
         let uses = segment_uses(&polygons, &site_of_corner);
         let mut edges: Vec<[usize; 2]> = uses.keys().map(|&(a, b)| [a as usize, b as usize]).collect();
         edges.sort_unstable();
@@ -76,7 +81,7 @@ impl Triangulation {
         let cdt = Cdt::try_bulk_load_cdt(sites, edges.clone(), |_| refused += 1).ok()?;
         let intact = refused == 0 && cdt.num_constraints() == edges.len();
         let slits = uses.into_iter().filter(|&(_, n)| n % 2 == 0).map(|(pair, _)| pair).collect();
-        Some(Self { cdt, site_of_corner, slits, intact, domain_polygons: polygons })
+        Some(Self { cdt, site_of_corner, inner_is_new, slits, intact, domain_polygons: polygons })
     }
 
     /// Number of sites.
