@@ -210,8 +210,13 @@ impl<'a> Filling<'a> {
             && sa.normal.dot(sb.normal) < (self.tolerance.angular_rad * 1.001).cos()
             && sa.normal != DVec3::ZERO
             && sb.normal != DVec3::ZERO;
-        let split = off > self.tolerance.linear_mm || (turned && length > self.shortest_turn_mm());
+        let split = off > self.bound_mm() || (turned && length > self.shortest_turn_mm());
         (split.then_some(at), off)
+    }
+
+    /// What the middles of edges and triangles keep to, for all between them to keep to the tolerance.
+    fn bound_mm(&self) -> f64 {
+        self.tolerance.linear_mm * 0.8
     }
 
     /// Chords below this are not split for the angle's sake: a crease inside a surface would split for ever.
@@ -227,7 +232,7 @@ impl<'a> Filling<'a> {
         let [pa, pb, pc] = t.map(|s| self.triangulation.at(s));
         let at = (pa + pb + pc) / 3.0;
         let off = self.off_surface(at, (a.on_surface() + b.on_surface() + c.on_surface()) / 3.0);
-        ((off > self.tolerance.linear_mm).then_some(at), off)
+        ((off > self.bound_mm()).then_some(at), off)
     }
 
     /// Distance along the normal between the surface at the warped point `at` and `chord`.

@@ -398,6 +398,9 @@ impl Sampler<'_> {
         if !matches!(self.curve, Curve::Line { .. }) && self.bends(a.point, b.point, middle, chord) {
             return true;
         }
+        if matches!(self.curve, Curve::Nurbs(_)) && self.wavers(a, b, chord) {
+            return true;
+        }
         a.sides.iter().zip(&b.sides).zip(self.grounds).any(|((fa, fb), g)| self.turns(g, fa, fb))
     }
 
@@ -409,6 +412,15 @@ impl Sampler<'_> {
         // The chords of the two halves turn by half as much as the tangents at the ends do.
         off > self.tolerance.linear_mm
             || 2.0 * (middle - a).angle_between(b - middle) > self.tolerance.angular_rad * 1.001
+    }
+
+    /// Whether a spline that meets its chord in the middle leaves it before or after.
+    fn wavers(&self, a: &Sample, b: &Sample, chord: DVec3) -> bool {
+        let Some(along) = chord.try_normalize() else { return false };
+        [0.25, 0.75].into_iter().any(|share| {
+            let point = self.curve.point(a.t + (b.t - a.t) * share);
+            (point - a.point).reject_from_normalized(along).length() > self.tolerance.linear_mm
+        })
     }
 
     /// Whether the surface turns, or its parameters run, too far between two feet.
