@@ -118,8 +118,13 @@ impl<'a> Exact<'a> {
         Self { surface, side, near_mm: 0.1 * mesh.linear_deflection_mm }
     }
 
-    /// The nearest point of the surface: from `uv`, and from nowhere in particular where that is not near.
+    /// The nearest point of the surface: `uv` itself where it is that (at a pole, which has many), then from `uv`, and
+    /// from nowhere in particular where that is not near.
     fn foot(&self, point: DVec3, uv: DVec2) -> SurfacePoint {
+        let claimed = self.surface.point(uv);
+        if claimed.distance(point) <= 1e-3 * self.near_mm {
+            return SurfacePoint { uv, point: claimed, distance: claimed.distance(point) };
+        }
         let near = self.surface.project(point, Some(uv));
         if near.distance <= self.near_mm {
             return near;

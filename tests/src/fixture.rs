@@ -9,7 +9,7 @@ use serde::Deserialize;
 /// A model in `fixtures/`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fixture {
-    /// Folder and name without extension: `cadquery/torus`.
+    /// Folder and name, without extension but for containers: `cadquery/torus`, `hand/packed.stpz`.
     pub name: String,
     /// The file.
     pub path: PathBuf,
@@ -29,8 +29,11 @@ pub struct Reference {
     pub closed: bool,
     /// Placed solids.
     pub solids: Option<usize>,
-    /// Placed faces.
+    /// Placed faces, without those that the file hides.
     pub faces: Option<usize>,
+    /// By how much the file's geometry disagrees with itself.
+    #[serde(default)]
+    pub sloppy_mm: f64,
     /// Each face once.
     #[serde(default)]
     pub face_areas_mm2: Vec<FaceReference>,
@@ -120,9 +123,11 @@ fn collect(folder: &Path, found: &mut Vec<Fixture>) {
     }
 }
 
-/// `cadquery/torus` for the path of `cadquery/torus.step`; nothing for what is no CAD file.
+/// `cadquery/torus` for the path of `cadquery/torus.step`, the whole `hand/packed.stpz` for a container; nothing for what
+/// is no CAD file.
 fn name_of(path: &Path) -> Option<String> {
     let name = path.strip_prefix(folder()).ok()?.to_str()?.replace('\\', "/");
-    let extensions = [".step", ".stp", ".p21", ".stpz", ".stp.gz", ".step.gz"];
-    extensions.iter().find_map(|extension| name.strip_suffix(extension)).map(str::to_string)
+    let plain = [".step", ".stp", ".p21"].iter().find_map(|extension| name.strip_suffix(extension));
+    let packed = [".stpz", ".gz", ".zip"].iter().any(|extension| name.ends_with(extension));
+    plain.map(str::to_string).or_else(|| packed.then(|| name.clone()))
 }

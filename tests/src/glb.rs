@@ -30,18 +30,18 @@ pub struct SceneNode {
 }
 
 /// A mesh.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     /// Its name.
     pub name: String,
     /// The triangles, by colour.
     pub surfaces: Vec<Surface>,
-    /// Number of line segments and line strips.
-    pub lines: usize,
+    /// Points of the lines, metres.
+    pub lines: Vec<[f32; 3]>,
 }
 
 /// Triangles of one colour.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     /// `#rrggbbaa` in sRGB, or `none`.
     pub color: String,
@@ -64,7 +64,7 @@ pub struct Measure {
     pub volume_mm3: f64,
     /// Their centroid.
     pub centroid_mm: DVec3,
-    /// Lower and upper corner of their vertices.
+    /// Lower and upper corner of all vertices, those of lines too.
     pub bbox_mm: [DVec3; 2],
     /// Their area by colour.
     pub colors: BTreeMap<String, f64>,
@@ -109,9 +109,9 @@ impl Scene {
             colors: BTreeMap::new(),
         };
         for node in &self.nodes {
-            for surface in node.mesh.iter().flat_map(|&mesh| &self.meshes[mesh].surfaces) {
-                measure.add(surface, &node.world);
-            }
+            let Some(mesh) = node.mesh.map(|mesh| &self.meshes[mesh]) else { continue };
+            mesh.surfaces.iter().for_each(|surface| measure.add(surface, &node.world));
+            mesh.lines.iter().for_each(|&point| measure.hold(file_axes_mm(&node.world, point)));
         }
         measure.centroid_mm /= measure.area_mm2;
         measure
@@ -119,6 +119,11 @@ impl Scene {
 }
 
 impl Measure {
+    fn hold(&mut self, point: DVec3) {
+        let [low, high] = self.bbox_mm;
+        self.bbox_mm = [low.min(point), high.max(point)];
+    }
+
     fn add(&mut self, surface: &Surface, world: &DMat4) {
         let side = world.determinant().signum();
         let points: Vec<_> = surface.positions.iter().map(|&p| file_axes_mm(world, p)).collect();
@@ -129,8 +134,7 @@ impl Measure {
             area += twice / 2.0;
             self.centroid_mm += (a + b + c) / 3.0 * twice / 2.0;
             self.volume_mm3 += side * a.dot(b.cross(c)) / 6.0;
-            let [low, high] = self.bbox_mm;
-            self.bbox_mm = [low.min(a).min(b).min(c), high.max(a).max(b).max(c)];
+            [a, b, c].into_iter().for_each(|point| self.hold(point));
         }
         self.triangles += surface.triangles.len();
         self.area_mm2 += area;
@@ -177,13 +181,14 @@ fn instance(node: &gltf::Node<'_>) -> Option<String> {
 }
 
 fn read_mesh(mesh: &gltf::Mesh<'_>, blob: Option<&[u8]>) -> Mesh {
-    let mut read = Mesh { name: mesh.name().unwrap_or_default().to_string(), surfaces: Vec::new(), lines: 0 };
+    let mut read =
+        Mesh { name: mesh.name().unwrap_or_default().to_string(), surfaces: Vec::new(), lines: Vec::new() };
     for primitive in mesh.primitives() {
+        let reader = primitive.reader(|_| blob);
         if primitive.mode() != Mode::Triangles {
-            read.lines += 1;
+            read.lines.extend(reader.read_positions().expect("positions"));
             continue;
         }
-        let reader = primitive.reader(|_| blob);
         let indices: Vec<u32> = reader.read_indices().expect("indices").into_u32().collect();
         read.surfaces.push(Surface {
             color: color(&primitive.material()),

@@ -37,7 +37,7 @@ pub struct Tally {
     pub open_shells: usize,
     /// Triangle edges that are used by more than two triangles.
     pub non_manifold_edges: usize,
-    /// Lower and upper corner; of the triangles, or of the free curves where there are none.
+    /// Lower and upper corner of the triangles and the free curves.
     pub bbox_mm: Option<[[f64; 3]; 2]>,
 }
 
@@ -135,7 +135,7 @@ fn solids(part: &Part) -> usize {
     part.bodies.iter().filter(|body| body.kind == BodyKind::Solid).count()
 }
 
-/// The points of the triangles that are shown, each once; those of the free curves where there are none.
+/// The points of the triangles that are shown, each once, and of the free curves.
 fn shown_points(part: &Part, mesh: &PartMesh) -> Vec<DVec3> {
     let mut used = vec![false; mesh.positions.len()];
     for (face, face_mesh) in part.faces.iter().zip(&mesh.faces) {
@@ -169,15 +169,11 @@ fn placements(model: &Model) -> Vec<Placement> {
 /// The exact box of all that is shown. Points are looked at only where the box's corners, turned, stand out of what
 /// is already known.
 fn placed_bounds(model: &Model, meshes: &[PartMesh], parts: &[Tally], placements: &[Placement]) -> Aabb {
-    let any_triangles = placements.iter().any(|p| p.shown && parts[p.part].triangles > 0);
     let mut points: Vec<Option<Vec<DVec3>>> = vec![None; parts.len()];
     let mut bounds = Aabb::EMPTY;
     for placement in placements.iter().filter(|p| p.shown) {
         let index = placement.part;
         let Some([min, max]) = parts[index].bbox_mm else { continue };
-        if any_triangles && parts[index].triangles == 0 {
-            continue;
-        }
         let loose = Aabb { min: min.into(), max: max.into() }.transformed(&placement.world);
         if bounds.union(loose) == bounds {
             continue;

@@ -1,6 +1,65 @@
 //! Files that are not what they should be.
 
+use std::path::Path;
+
+use serde_json::Value;
+
 use crate::Scratch;
+
+#[test]
+fn broken_files_end_as_they_should() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/broken");
+    let expected =
+        std::fs::read_to_string(folder.join("expected.json")).expect("what is expected of broken files");
+    let expected: Vec<Value> = serde_json::from_str(&expected).expect("JSON");
+    let findings: Vec<_> = expected.iter().flat_map(|case| broken_file(&folder, case)).collect();
+    assert!(findings.is_empty(), "of {} broken files\n{}", expected.len(), findings.join("\n"));
+}
+
+/// What is not as `case` expects it.
+fn broken_file(folder: &Path, case: &Value) -> Vec<String> {
+    let name = case["file"].as_str().expect("a file");
+    let scratch = Scratch::new();
+    let input = folder.join(name);
+    let run = scratch.run([
+        "convert".as_ref(),
+        input.as_os_str(),
+        "-o".as_ref(),
+        "out.glb".as_ref(),
+        "--report".as_ref(),
+        "out.json".as_ref(),
+    ]);
+    let mut findings = Vec::new();
+    let mut find = |what: String| findings.push(format!("{name} ({}): {what}", case["shows"]));
+    if !case["exit"]
+        .as_array()
+        .expect("exit codes")
+        .iter()
+        .any(|code| code.as_i64() == run.code.map(i64::from))
+    {
+        find(format!("exit {:?}, not {}: {}", run.code, case["exit"], run.stderr));
+    }
+    if run.stderr.contains("internal error") {
+        find(run.stderr.clone());
+    }
+    let said = run.stderr.to_lowercase();
+    let words = case["words"].as_array().expect("words");
+    if run.code != Some(0)
+        && !words.is_empty()
+        && !words.iter().any(|w| said.contains(w.as_str().expect("a word")))
+    {
+        find(format!("says {said:?}, none of {words:?}"));
+    }
+    if scratch.path("out.glb").exists() != (run.code != Some(2)) {
+        find(format!("exit {:?}, and files {:?}", run.code, scratch.files()));
+    } else if let (Some(least), Some(0 | 1)) = (case["area_mm2"].as_f64(), run.code) {
+        let area = scratch.json("out.json")["totals"]["area_mm2"].as_f64().expect("an area");
+        if area < 0.99 * least {
+            find(format!("{area} mm² are left, not {least}"));
+        }
+    }
+    findings
+}
 
 #[test]
 fn what_is_no_step_file_ends_with_2_and_a_line() {
