@@ -4,6 +4,10 @@ use std::f64::consts::TAU;
 
 use crate::Interval;
 
+/// How far apart two ends or sides may be, as a share of the whole's size, and still count as one: what is left of a
+/// gap after CAD systems have written their coordinates.
+pub(crate) const CLOSURE: f64 = 1e-7;
+
 /// The parameter of `domain` that is a whole number of its lengths away from `t`; `t` itself where it lies inside
 /// (so the upper end stays the upper end).
 pub(crate) fn wrap(t: f64, domain: Interval) -> f64 {

@@ -119,6 +119,16 @@ fn a_knot_vector_over_tiny_and_huge_spans() {
 }
 
 #[test]
+fn very_many_control_points_of_the_highest_degree() {
+    let count = 100_000;
+    let point = |i: usize| DVec3::new((i % 7) as f64, (i % 3) as f64, i as f64 / count as f64);
+    let knots = (0..count + 128).map(|i| i as f64).collect();
+    let curve = Curve::Nurbs(NurbsCurve::new(127, (0..count).map(point).collect(), vec![], knots).unwrap());
+    assert!(curve.project(DVec3::ZERO, None).distance < 10.0);
+    assert!(!curve.bounds(curve.domain()).is_empty());
+}
+
+#[test]
 fn a_range_of_very_many_periods() {
     let curve = Curve::Nurbs(specimens::closed_spline());
     let found = curve.breakpoints(Interval::new(0.0, 1e15));

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Curve;
 use crate::Interval;
-use crate::period::wrap;
+use crate::period::{CLOSURE, wrap};
 
 /// `composite_curve`: segments end to end.
 #[derive(Clone, Debug)]
@@ -49,7 +49,7 @@ impl CompositeCurve {
         Interval::new(0.0, self.segments.len().max(1) as f64)
     }
 
-    /// The domain's length where the end meets the start (within 1e-9 of the extent of the joints).
+    /// The domain's length where the end meets the start (within 1e-7 of the extent of the joints).
     pub fn period(&self) -> Option<f64> {
         let (first, last) = (self.segments.first()?, self.segments.last()?);
         let start = first.curve.point(first.parameter(0.0));
@@ -57,7 +57,7 @@ impl CompositeCurve {
         let stride = (self.segments.len() / 16).max(1);
         let middles = self.segments.iter().step_by(stride).map(|s| s.curve.point(s.parameter(0.5)));
         let extent = middles.map(|p| p.distance(start)).fold(0.0, f64::max);
-        (start.distance(end) <= 1e-9 * extent).then(|| self.domain().length())
+        (start.distance(end) <= CLOSURE * extent).then(|| self.domain().length())
     }
 
     /// The segment at `t`, and the share of it.

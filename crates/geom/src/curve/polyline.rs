@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::CurvePoint;
 use crate::Interval;
-use crate::period::wrap;
+use crate::period::{CLOSURE, wrap};
 
 /// Straight segments through `points` (at least two; with fewer, evaluation gives the one point or the origin).
 #[derive(Clone, Debug)]
@@ -19,12 +19,12 @@ impl Polyline {
         Interval::new(0.0, self.points.len().saturating_sub(1).max(1) as f64)
     }
 
-    /// The domain's length where the last point is the first (within 1e-9 of the polyline's extent).
+    /// The domain's length where the last point is the first (within 1e-7 of the polyline's extent).
     pub fn period(&self) -> Option<f64> {
         let (first, last) = (self.points.first()?, self.points.last()?);
         let stride = (self.points.len() / 64).max(1);
         let extent = self.points.iter().step_by(stride).map(|p| p.distance(*first)).fold(0.0, f64::max);
-        (self.points.len() > 2 && first.distance(*last) <= 1e-9 * extent).then(|| self.domain().length())
+        (self.points.len() > 2 && first.distance(*last) <= CLOSURE * extent).then(|| self.domain().length())
     }
 
     /// Point, first and second derivative at `t`; at a corner those of the segment that begins there.

@@ -38,13 +38,20 @@ impl Spline<'_> {
         find_span(self.knots, self.degree, self.points.len(), t)
     }
 
-    /// The control points over `knots`, which hold this spline's own (between their ends) and possibly more.
+    /// The control points over `knots`, which hold this spline's own (between their ends) and possibly more. Those whose
+    /// knots have not changed stay as they are.
     pub fn over(&self, knots: &[f64]) -> Vec<DVec4> {
         let p = self.degree;
         let mut triangle = Vec::with_capacity(p + 1);
-        (0..knots.len() - p - 1)
-            .map(|i| self.blossom(self.span(knots[i]), knots[i + 1..=i + p].iter().copied(), &mut triangle))
-            .collect()
+        let mut point = |i: usize| {
+            let (span, arguments) = (self.span(knots[i]), &knots[i + 1..=i + p]);
+            let kept = (span - p..=span).find(|&j| self.knots[j + 1..=j + p] == *arguments);
+            kept.map_or_else(
+                || self.blossom(span, arguments.iter().copied(), &mut triangle),
+                |j| self.points[j],
+            )
+        };
+        (0..knots.len() - p - 1).map(&mut point).collect()
     }
 
     /// The control points of one degree more over `knots`, which hold each of this (clamped) spline's once more: the

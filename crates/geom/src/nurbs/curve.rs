@@ -7,12 +7,12 @@ use glam::{DAffine3, DVec3, DVec4};
 use super::basis::{Basis, Row, by_degree};
 use super::control::{self, Control, lift_all, lower};
 use super::{NurbsError, knots};
-use crate::period::wrap;
+use crate::period::{CLOSURE, wrap};
 use crate::{Aabb, Interval};
 
 /// A B-spline curve, rational or not; cloning shares the data.
 ///
-/// The domain is `[knots[degree], knots[points.len()]]`. Where the two ends meet (within 1e-9 of the control
+/// The domain is `[knots[degree], knots[points.len()]]`. Where the two ends meet (within 1e-7 of the control
 /// polygon's size) the curve counts as closed, and evaluation wraps parameters into the domain; elsewhere it clamps
 /// them.
 ///
@@ -62,7 +62,7 @@ impl NurbsCurve {
         let mut data =
             Data { degree, points, weights, homogeneous, knots, domain, size, closed: false, samples };
         let ends = [domain.start, domain.end].map(|t| data.evaluate::<0>(t)[0]);
-        data.closed = ends[0].distance(ends[1]) <= 1e-9 * size;
+        data.closed = ends[0].distance(ends[1]) <= CLOSURE * size;
         Ok(Self(Arc::new(data)))
     }
 
@@ -148,7 +148,7 @@ impl NurbsCurve {
     pub(crate) fn samples(&self) -> &[(f64, DVec3)] {
         self.0.samples.get_or_init(|| {
             let per_span = (3 * self.0.degree).clamp(6, 96);
-            let parameters = sample_parameters(&self.distinct_knots(), per_span, 1 << 16);
+            let parameters = sample_parameters(&self.distinct_knots(), per_span, 1 << 14);
             parameters.into_iter().map(|t| (t, self.point(t))).collect()
         })
     }

@@ -15,7 +15,7 @@ use crate::{Aabb, Derivatives, Direction, Interval, Singularity};
 /// A tensor product B-spline surface of any degree, rational or not; cloning shares the data.
 ///
 /// Along u the domain is `[knots[0][p], knots[0][rows]]`, along v likewise with the columns. A direction whose two
-/// sides coincide (within 1e-9 of the control net's size) counts as closed, and evaluation wraps its parameter into
+/// sides coincide (within 1e-7 of the control net's size) counts as closed, and evaluation wraps its parameter into
 /// the domain; elsewhere it clamps.
 #[derive(Clone, Debug)]
 pub struct NurbsSurface(Arc<Data>);

@@ -35,13 +35,26 @@ impl Curve {
                 Some(period) => t + period * ((range.start - t) / period).ceil(),
                 None => t,
             };
+            let t = if matches!(self, Self::Line { .. }) { range.clamp(t) } else { t };
             if range.contains(t) {
                 return self.foot(t, point);
             }
         }
-        let samples = self.fresh_samples(range, 16);
-        let search = CurveSearch { evaluate: |t| self.derivatives(t), limits: range };
-        self.foot(search.nearest(point, hint, &samples).t, point)
+        let search = CurveSearch::new(|t| self.derivatives(t), range, false);
+        self.foot(search.nearest(point, hint, || Cow::Owned(self.samples_within(range))).t, point)
+    }
+
+    /// Samples with parameters in `range`, both its ends included.
+    fn samples_within(&self, range: Interval) -> Vec<(f64, DVec3)> {
+        let domain = self.domain();
+        match self {
+            Self::Nurbs(nurbs) if domain.contains(range.start) && domain.contains(range.end) => {
+                let inner = nurbs.samples().iter().filter(|(t, _)| range.start < *t && *t < range.end);
+                let [first, last] = [range.start, range.end].map(|t| (t, self.point(t)));
+                std::iter::once(first).chain(inner.copied()).chain([last]).collect()
+            }
+            _ => self.fresh_samples(range, 16),
+        }
     }
 
     fn foot(&self, t: f64, target: DVec3) -> CurvePoint {
@@ -82,9 +95,8 @@ impl Curve {
     fn search(&self, point: DVec3, hint: Option<f64>) -> CurvePoint {
         let domain = self.domain();
         let closed = self.period().is_some();
-        let limits = if closed { Interval::INFINITE } else { domain };
-        let search = CurveSearch { evaluate: |t| self.derivatives(t), limits };
-        let t = search.nearest(point, hint, &self.samples(point)).t;
+        let search = CurveSearch::new(|t| self.derivatives(t), domain, closed);
+        let t = search.nearest(point, hint, || self.samples(point)).t;
         self.foot(if closed { wrap(t, domain) } else { t }, point)
     }
 
@@ -136,6 +148,9 @@ impl CompositeCurve {
             let foot = segment.curve.project_within(point, segment.range, inner);
             if foot.distance < best.distance {
                 best = CurvePoint { t: index as f64 + segment.share(foot.t), ..foot };
+            }
+            if best.distance <= 1e-14 * point.length() {
+                break;
             }
         }
         best

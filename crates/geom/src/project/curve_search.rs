@@ -1,5 +1,7 @@
 //! The nearest point on any curve that can be evaluated: Newton steps, and a global search over samples.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
 use crate::Interval;
@@ -7,9 +9,11 @@ use crate::Interval;
 /// A curve as its evaluation, and where its parameter may go.
 pub(crate) struct CurveSearch<E> {
     /// Point, first and second derivative.
-    pub evaluate: E,
+    evaluate: E,
     /// Where the parameter may go; infinite where the curve is closed (evaluation wraps then).
-    pub limits: Interval,
+    limits: Interval,
+    /// The length of the curve's domain.
+    length: f64,
 }
 
 /// Where a descent ended.
@@ -19,6 +23,8 @@ pub(crate) struct Foot {
     pub distance2: f64,
     /// Whether the point there is square to the curve, or at the end of the limits with the target beyond.
     pub proper: bool,
+    /// Whether the target is on the curve for all that matters: within 1e-6 of the curve's extent.
+    on: bool,
 }
 
 /// A sampled local minimum of the distance.
@@ -36,16 +42,27 @@ const STARTS: usize = 6;
 const STEPS: usize = 40;
 
 impl<E: Fn(f64) -> [DVec3; 3]> CurveSearch<E> {
+    /// A search over `domain`, and any number of periods beyond it where the curve is `closed`.
+    pub fn new(evaluate: E, domain: Interval, closed: bool) -> Self {
+        let limits = if closed { Interval::INFINITE } else { domain };
+        Self { evaluate, limits, length: domain.length() }
+    }
+
     /// The local solution from the hint when it is proper and no part of the curve, judged by its samples, can be
     /// nearer; else the global one.
-    pub fn nearest(&self, target: DVec3, hint: Option<f64>, samples: &[(f64, DVec3)]) -> Foot {
-        let nothing = Foot { t: self.limits.clamp(0.0), distance2: f64::INFINITY, proper: false };
+    pub fn nearest<'s>(
+        &self,
+        target: DVec3,
+        hint: Option<f64>,
+        samples: impl FnOnce() -> Cow<'s, [(f64, DVec3)]>,
+    ) -> Foot {
+        let nothing = Foot { t: self.limits.clamp(0.0), distance2: f64::INFINITY, proper: false, on: false };
         let hinted = hint.filter(|t| t.is_finite()).map(|hint| self.descend(target, hint));
         let mut best = hinted.filter(|foot| foot.proper).unwrap_or(nothing);
-        if best.distance2 <= 1e-20 * target.length_squared() {
+        if best.on {
             return best;
         }
-        for start in local_minima(target, samples).iter().flatten() {
+        for start in local_minima(target, &samples()).iter().flatten() {
             if start.distance2.sqrt() - start.radius < best.distance2.sqrt() {
                 let foot = self.refine(target, *start);
                 if foot.distance2 < best.distance2 * (1.0 - 1e-12) {
@@ -58,7 +75,7 @@ impl<E: Fn(f64) -> [DVec3; 3]> CurveSearch<E> {
 
     /// The best foot near a sample, never worse than the sample itself.
     fn refine(&self, target: DVec3, start: Start) -> Foot {
-        let sampled = Foot { t: start.t, distance2: start.distance2, proper: false };
+        let sampled = Foot { t: start.t, distance2: start.distance2, proper: false, on: false };
         let mut foot = self.descend_from_both_sides(target, start);
         if !foot.proper || foot.distance2 > start.distance2 {
             let shrunk = self.shrink(target, start);
@@ -86,39 +103,34 @@ impl<E: Fn(f64) -> [DVec3; 3]> CurveSearch<E> {
         let mut at = (self.evaluate)(t);
         let mut distance2 = (at[0] - target).length_squared();
         let scale = at[0].length() + target.length();
+        let mut previous = 0.0;
         for _ in 0..STEPS {
             let residual = at[0] - target;
             let (slope, speed2) = (residual.dot(at[1]), at[1].length_squared());
             let bend = speed2 + residual.dot(at[2]);
-            let convex = bend > 1e-6 * speed2;
-            let step = -slope / if convex { bend } else { speed2 };
-            // Newton's error after a step is about the square of the step.
-            let enough = if convex { 1e-9 } else { 1e-13 } * scale;
-            let Some((next, value, settled)) = self.shorten(target, t, step, at, enough) else { break };
+            let step = -slope / if bend > 1e-6 * speed2 { bend } else { speed2 };
+            let Some((next, value, travel)) = self.shorten(target, t, step, at) else { break };
             t = next;
             at = value;
             distance2 = (at[0] - target).length_squared();
-            if settled {
+            if has_settled(travel, previous, 1e-13 * scale) {
                 break;
             }
+            previous = travel;
         }
-        Foot { t, distance2, proper: self.is_proper(t, at, target, scale) }
+        let extent = self.length * at[1].length();
+        let near = if extent.is_finite() { (1e-6 * extent).max(1e-12 * scale) } else { 1e-12 * scale };
+        let on = distance2 <= near * near;
+        Foot { t, distance2, proper: self.is_proper(t, at, target, scale), on }
     }
 
-    /// The step, halved until the distance does not grow (beyond rounding), and whether it was the last one needed: a
-    /// whole step no longer than `enough`. `None` where no step helps.
-    fn shorten(
-        &self,
-        target: DVec3,
-        t: f64,
-        step: f64,
-        at: [DVec3; 3],
-        enough: f64,
-    ) -> Option<(f64, [DVec3; 3], bool)> {
+    /// The step, halved until the distance does not grow (beyond rounding), and how far it went in space. `None` where no
+    /// step helps.
+    fn shorten(&self, target: DVec3, t: f64, step: f64, at: [DVec3; 3]) -> Option<(f64, [DVec3; 3], f64)> {
         let before = at[0].distance_squared(target);
         let scale = at[0].length() + target.length();
         let mut step = step;
-        for halvings in 0..30 {
+        for _ in 0..30 {
             let next = self.limits.clamp(t + step);
             let travel = (next - t).abs() * at[1].length();
             if travel <= 1e-16 * scale || travel.is_nan() {
@@ -126,7 +138,7 @@ impl<E: Fn(f64) -> [DVec3; 3]> CurveSearch<E> {
             }
             let value = (self.evaluate)(next);
             if value[0].distance_squared(target) <= before * (1.0 + 1e-14) + 1e-30 * scale * scale {
-                return Some((next, value, travel <= if halvings == 0 { enough } else { 1e-13 * scale }));
+                return Some((next, value, travel));
             }
             step *= 0.5;
         }
@@ -162,6 +174,12 @@ impl<E: Fn(f64) -> [DVec3; 3]> CurveSearch<E> {
         }
         self.descend(target, inner[usize::from(values[1] < values[0])])
     }
+}
+
+/// Whether the next step would be no longer than `least`: this one is not, or it has shrunk so much from the one before
+/// that the next one, shrinking no less, would not be. The first has none before it: `previous` is 0.
+pub(super) fn has_settled(travel: f64, previous: f64, least: f64) -> bool {
+    travel <= least || (travel < 0.5 * previous && travel * travel <= least * previous)
 }
 
 /// The best few samples that are nearer than both neighbours, best first.

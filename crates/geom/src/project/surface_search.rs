@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use glam::{DVec2, DVec3};
 
 use super::SampleGrid;
+use super::curve_search::has_settled;
 use crate::period::wrap;
 use crate::{Derivatives, Direction, Interval, Surface};
 
@@ -144,22 +145,22 @@ impl<'a> SurfaceSearch<'a> {
         let mut uv = self.clamp(start);
         let mut at = self.surface.derivatives(uv);
         let scale = at.point.length() + target.length();
+        let mut previous = 0.0;
         for _ in 0..STEPS {
             let gradient = Gradient::new(&at, target, uv, &self.limits);
             if gradient.free == [false, false] {
                 break;
             }
-            // Newton's error after a step is about the square of the step.
-            let enough = if gradient.is_convex() { 1e-9 } else { 1e-13 } * scale;
             let moved = self
-                .shorten(target, uv, &at, gradient.newton(), enough)
-                .or_else(|| self.shorten(target, uv, &at, gradient.downhill(), 1e-4 * enough));
-            let Some((next, value, settled)) = moved else { break };
+                .shorten(target, uv, &at, gradient.newton())
+                .or_else(|| self.shorten(target, uv, &at, gradient.downhill()));
+            let Some((next, value, travel)) = moved else { break };
             uv = next;
             at = value;
-            if settled {
+            if has_settled(travel, previous, 1e-13 * scale) {
                 break;
             }
+            previous = travel;
         }
         let gradient = Gradient::new(&at, target, uv, &self.limits);
         let residual = at.point.distance(target);
@@ -168,21 +169,19 @@ impl<'a> SurfaceSearch<'a> {
         Foot { uv, distance2: residual * residual, proper: gradient.vanishes(residual, scale), on }
     }
 
-    /// The step, halved until the distance does not grow (beyond rounding), and whether it was the last one needed: a
-    /// whole step no longer than `enough`.
-    /// `None` where no step helps.
+    /// The step, halved until the distance does not grow (beyond rounding), and how far it went in space. `None` where no
+    /// step helps.
     fn shorten(
         &self,
         target: DVec3,
         uv: DVec2,
         at: &Derivatives,
         step: DVec2,
-        enough: f64,
-    ) -> Option<(DVec2, Derivatives, bool)> {
+    ) -> Option<(DVec2, Derivatives, f64)> {
         let before = at.point.distance_squared(target);
         let scale = at.point.length() + target.length();
         let mut step = step.clamp(-self.reach, self.reach);
-        for halvings in 0..24 {
+        for _ in 0..24 {
             let next = self.clamp(uv + step);
             let change = next - uv;
             let travel = change.x.abs() * at.du.length() + change.y.abs() * at.dv.length();
@@ -191,8 +190,7 @@ impl<'a> SurfaceSearch<'a> {
             }
             let value = self.surface.derivatives(next);
             if value.point.distance_squared(target) <= before * (1.0 + 1e-14) + 1e-31 * scale * scale {
-                let settled = travel <= if halvings == 0 { enough } else { 1e-13 * scale };
-                return Some((next, value, settled));
+                return Some((next, value, travel));
             }
             step *= 0.5;
         }

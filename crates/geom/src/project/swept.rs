@@ -36,10 +36,9 @@ pub(super) fn project_extrusion(
             if t.is_finite() { t } else { 0.0 }
         }
         _ => {
-            let samples = flattened(profile, point, flatten);
+            let samples = || flattened(profile, point, flatten);
             let evaluate = |t: f64| profile.derivatives(t).map(flatten);
-            let target = flatten(point);
-            search(profile, evaluate, &samples, target, hint_u)
+            search(profile, evaluate, samples, flatten(point), hint_u)
         }
     };
     DVec2::new(u, (point - profile.point(u)).dot(unit) / direction.length())
@@ -77,8 +76,8 @@ pub(super) fn project_revolution(
             near_hint(t, hint_v, profile.period())
         }
         None => {
-            let samples = flattened(profile, point, |p| meridian.flatten(p));
-            search(profile, |t| meridian.derivatives(t), &samples, target, hint_v)
+            let samples = || flattened(profile, point, |p| meridian.flatten(p));
+            search(profile, |t| meridian.derivatives(t), samples, target, hint_v)
         }
     };
     DVec2::new(angle_between(&meridian, v, point, hint.map(|h| h.x)), v)
@@ -133,16 +132,15 @@ fn flattened<'a>(
     Cow::Owned(profile.samples(target).iter().map(|&(t, p)| (t, flatten(p))).collect())
 }
 
-fn search(
+fn search<'a>(
     profile: &Curve,
     evaluate: impl Fn(f64) -> [DVec3; 3],
-    samples: &[(f64, DVec3)],
+    samples: impl FnOnce() -> Cow<'a, [(f64, DVec3)]>,
     target: DVec3,
     hint: Option<f64>,
 ) -> f64 {
     let (domain, period) = (profile.domain(), profile.period());
-    let limits = if period.is_some() { Interval::INFINITE } else { domain };
-    let foot = CurveSearch { evaluate, limits }.nearest(target, hint, samples);
+    let foot = CurveSearch::new(evaluate, domain, period.is_some()).nearest(target, hint, samples);
     let t = if period.is_some() { wrap(foot.t, domain) } else { foot.t };
     near_hint(t, hint, period)
 }
@@ -154,19 +152,19 @@ fn near_hint(t: f64, hint: Option<f64>, period: Option<f64>) -> f64 {
     }
 }
 
-/// The parameters at which a profile meets the axis, within 1e-8 of its distance from `origin` or its own extent.
+/// The parameters at which a profile meets the axis, within 1e-6 of its own extent or its largest distance
+/// from there.
 pub(crate) fn axis_touches(profile: &Curve, origin: DVec3, axis: DVec3) -> Vec<f64> {
     let meridian = Meridian { profile, origin, axis };
     let samples = profile.samples(origin);
     let flat: Vec<(f64, DVec3)> = samples.iter().map(|&(t, p)| (t, meridian.flatten(p))).collect();
     let extent = flat.iter().map(|(_, p)| p.x).fold(0.0, f64::max);
     let spread = flat.iter().map(|(_, p)| p.distance(flat[0].1)).fold(0.0, f64::max);
-    let tolerance = 1e-8 * extent.max(spread);
+    let tolerance = 1e-6 * extent.max(spread);
     let domain = profile.domain();
-    let limits = if profile.period().is_some() { Interval::INFINITE } else { domain };
     let radial = |t: f64| profile.derivatives(t).map(|w| w - axis * w.dot(axis));
     let target = origin - axis * origin.dot(axis);
-    let search = CurveSearch { evaluate: radial, limits };
+    let search = CurveSearch::new(radial, domain, profile.period().is_some());
     let mut found: Vec<f64> = Vec::new();
     for i in 0..flat.len() {
         let beside = [i.saturating_sub(1), (i + 1).min(flat.len() - 1)];

@@ -66,7 +66,7 @@ impl Surface {
     /// Whether ∂S/∂u and ∂S/∂v all but vanish.
     fn vanishing(&self, s: &Derivatives) -> [bool; 2] {
         let scale = self.derivative_scale(s.point);
-        [s.du.length() <= 1e-9 * scale[0], s.dv.length() <= 1e-9 * scale[1]]
+        [s.du.length() <= 1e-6 * scale[0], s.dv.length() <= 1e-6 * scale[1]]
     }
 
     fn limit_normal(&self, s: Derivatives, inside: DVec2) -> Option<DVec3> {

@@ -48,7 +48,7 @@ impl Surface {
         let points = [0.0, 0.2, 0.4, 0.6, 0.8].map(|s| self.point(singularity.at_share(self, s)));
         let size =
             self.point(DVec2::from(self.domain().map(|d| if d.is_finite() { d.at(0.5) } else { 0.0 })));
-        points.iter().all(|p| p.distance(points[0]) <= 1e-9 * size.distance(points[0]))
+        points.iter().all(|p| p.distance(points[0]) <= 1e-6 * size.distance(points[0]))
     }
 }
 
