@@ -70,14 +70,15 @@ class HandWritten:
     shows: str
     #: Returns the file (a Part21, text or bytes) and its reference without source and description.
     build: Callable[[], tuple[object, dict]]
+    extension: str = ".step"
 
 
-def hand(name: str, shows: str, *, folder: str = "hand"):
+def hand(name: str, shows: str, *, folder: str = "hand", extension: str = ".step"):
     """Registers the decorated function as the builder of the hand-written file `name`."""
 
     def register(build):
         assert (folder, name) not in HAND, name
-        HAND[folder, name] = HandWritten(name, folder, shows, build)
+        HAND[folder, name] = HandWritten(name, folder, shows, build, extension)
         return build
 
     return register

@@ -33,7 +33,12 @@ def make_all(folder: Path, words: list[str]) -> int:
             text=True,
             check=True,
         )
-        reports = [line[line.index(word) :].split("\t") for line in done.stdout.splitlines() for word in ("MADE\t", "FAILED\t") if word in line]
+        reports = [
+            line[line.index(word) :].split("\t")
+            for line in done.stdout.splitlines()
+            for word in ("MADE\t", "FAILED\t")
+            if word in line
+        ]
         folder.mkdir(parents=True, exist_ok=True)
         for status, name, shows in reports:
             print(f"freecad/{name} {status.lower()}", flush=True)

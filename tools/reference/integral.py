@@ -107,7 +107,9 @@ def _integrate(key: cq.Face) -> FaceIntegrals:
     breaks = [v_knots.Value(i) for i in range(1, v_knots.Length() + 1)]
     runs = [run for edge in _edges(forward) for run in _runs(edge, forward, strip, breaks)]
     # Parts of the boundary may contribute nothing: what is precise enough is measured against the whole.
-    scale = sum(abs(b - a) * abs(speed(a + (b - a) * t)[0]) / 4 for speed, a, b, _ in runs for t in (0.1, 0.4, 0.6, 0.9))
+    scale = sum(
+        abs(b - a) * abs(speed(a + (b - a) * t)[0]) / 4 for speed, a, b, _ in runs for t in (0.1, 0.4, 0.6, 0.9)
+    )
     total = np.zeros(5)
     for speed, a, b, sign in runs:
         value, _ = quad_vec(speed, a, b, epsabs=PRECISION * scale, epsrel=0.0, norm=_leading, limit=60)

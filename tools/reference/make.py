@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-import multiprocessing
+import os
 import sys
 import time
 import traceback
@@ -11,13 +11,14 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+import broken  # noqa: E402,F401  (registers the broken files)
 import hand  # noqa: E402,F401  (registers the hand-written files)
 import models  # noqa: E402,F401  (registers the fixtures)
 from catalogue import FIXTURES, HAND, Fixture, HandWritten  # noqa: E402
 
+from broken.expected import write_all as write_broken  # noqa: E402
 from exact import bounding_box, faces  # noqa: E402
 from freecad_run import make_all as make_freecad  # noqa: E402
-from hand import broken  # noqa: E402
 from mesh_out import write_meshes  # noqa: E402
 from readme import write_tables  # noqa: E402
 from reference import (  # noqa: E402
@@ -52,7 +53,9 @@ def make(fixture: Fixture) -> list[str]:
     if fixture.meshes and faces(shape):
         unit = write_meshes(fixture.name, model, shape, box, stem, fixture.deflection, fixture.angular)
         reference["glb_unit_mm"] = unit
-    write_reference(stem.with_name(fixture.name + ".reference.json"), {"source": SOURCE, "shows": fixture.shows, **reference})
+    write_reference(
+        stem.with_name(fixture.name + ".reference.json"), {"source": SOURCE, "shows": fixture.shows, **reference}
+    )
     return notes
 
 
@@ -90,8 +93,7 @@ def make_hand(fixture: HandWritten) -> list[str]:
     content, reference = fixture.build()
     if not isinstance(content, (str, bytes)):
         content = content.text()
-    # A name with a dot brings its own extension.
-    step = folder / (fixture.name if "." in fixture.name else fixture.name + ".step")
+    step = folder / (fixture.name + fixture.extension)
     step.write_bytes(content if isinstance(content, bytes) else content.encode("utf-8"))
     differences = seen_otherwise(reference, step)
     reference = {"source": "closed form", "shows": fixture.shows, **reference, "opencascade_differs": differences}
@@ -111,9 +113,8 @@ def seen_otherwise(reference: dict, step: Path) -> list[str]:
         return [f"reads nothing ({type(error).__name__})"]
 
 
-def make_aloud(key: tuple[str, str]) -> bool:
+def make_aloud(fixture: Fixture | HandWritten) -> bool:
     """Builds one fixture and tells how it went."""
-    fixture = FIXTURES.get(key) or HAND[key]
     started = time.monotonic()
     try:
         notes = make(fixture) if isinstance(fixture, Fixture) else make_hand(fixture)
@@ -125,16 +126,40 @@ def make_aloud(key: tuple[str, str]) -> bool:
     return not notes
 
 
+def apart(work, items: list) -> list[bool]:
+    """Does the work on each item in a process of its own, a few at a time.
+
+    OpenCASCADE numbers products per process, and orders some of what it writes by address: children of one unchanged
+    parent (without address randomization, see `make`) all start alike.
+    """
+    results, running = [False] * len(items), {}
+    for index, item in enumerate(items):
+        if len(running) == (os.cpu_count() or 1):
+            collect(running, results)
+        sys.stdout.flush()
+        child = os.fork()
+        if child == 0:
+            os._exit(0 if work(item) else 1)
+        running[child] = index
+    while running:
+        collect(running, results)
+    return results
+
+
+def collect(running: dict[int, int], results: list[bool]) -> None:
+    """Waits for one child; a child that died is no success."""
+    child, status = os.wait()
+    results[running.pop(child)] = status == 0
+
+
 def main(words: list[str]) -> int:
     """Builds the fixtures whose folder/name contains one of the words, or all."""
     known = [*FIXTURES.values(), *HAND.values()]
     chosen = [f for f in known if not words or any(word in f"{f.folder}/{f.name}" for word in words)]
     make_freecad(FIXTURES_FOLDER / "freecad", words)
     if not words or "broken" in words:
-        broken.write_all(FIXTURES_FOLDER / "broken")
-    # Each in a process of its own: OpenCASCADE numbers products per process.
-    with multiprocessing.get_context("fork").Pool(maxtasksperchild=1) as pool:
-        good = pool.map(make_aloud, [(f.folder, f.name) for f in chosen], chunksize=1)
+        write_broken(FIXTURES_FOLDER / "broken")
+    good = apart(make_aloud, chosen)
     write_tables(FIXTURES_FOLDER)
     failed = [fixture.name for fixture, well in zip(chosen, good) if not well]
     print(f"{len(chosen)} fixtures, {len(failed)} to look at:", *failed)

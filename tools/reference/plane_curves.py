@@ -159,5 +159,3 @@ def bezier_knots(poles: int, degree: int) -> list[float]:
     spans = (poles - 1) // degree
     assert spans * degree + 1 == poles
     return [0.0] + [float(k) for k in range(spans + 1) for _ in range(degree)] + [float(spans)]
-
-

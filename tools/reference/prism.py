@@ -81,9 +81,7 @@ def prism(model: StepModel, name: str, segments, height: float) -> dict:
     )
     walls = [wall(model, segment, a, b, height) for segment, a, b in zip(segments, low, high)]
     model.product(name, [model.solid([floor, lid, *walls])])
-    return model.reference(
-        volume=area * height, bbox=[[*map(float, box[0]), 0.0], [*map(float, box[1]), height]]
-    )
+    return model.reference(volume=area * height, bbox=[[*map(float, box[0]), 0.0], [*map(float, box[1]), height]])
 
 
 def wall(model: StepModel, segment: Segment, low: Ref, high: Ref, height: float) -> Ref:
@@ -105,5 +103,3 @@ def wall(model: StepModel, segment: Segment, low: Ref, high: Ref, height: float)
         centroid=(float(x), float(y), height / 2),
         same_sense=same_sense,
     )
-
-

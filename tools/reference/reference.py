@@ -92,7 +92,9 @@ def finer_disagreements(expected: dict, found: dict) -> list[str]:
     for face in expected["face_areas_mm2"]:
         notes += face_disagreements(face, others.get(face["entity"]))
     ours, theirs = expected["colours"], found["colours"]
-    if not all(math.isclose(ours.get(c, 0.0), theirs.get(c, 0.0), rel_tol=ROUND_TRIP, abs_tol=1e-9) for c in {*ours, *theirs}):
+    if not all(
+        math.isclose(ours.get(c, 0.0), theirs.get(c, 0.0), rel_tol=ROUND_TRIP, abs_tol=1e-9) for c in {*ours, *theirs}
+    ):
         notes.append("other colours")
     if "tree" in expected and settled(expected["tree"]) != settled(found["tree"]):
         notes.append("another tree")

@@ -196,7 +196,9 @@ class StepModel(Part21):
         return self.si_length("MILLI")
 
     def si_length(self, prefix: str | None) -> Ref:
-        return self.add_complex(LENGTH_UNIT=(), NAMED_UNIT=(DERIVED,), SI_UNIT=(Enum(prefix) if prefix else None, Enum("METRE")))
+        return self.add_complex(
+            LENGTH_UNIT=(), NAMED_UNIT=(DERIVED,), SI_UNIT=(Enum(prefix) if prefix else None, Enum("METRE"))
+        )
 
     def radian(self) -> Ref:
         return self.add_complex(NAMED_UNIT=(DERIVED,), PLANE_ANGLE_UNIT=(), SI_UNIT=(None, Enum("RADIAN")))
@@ -217,12 +219,17 @@ class StepModel(Part21):
         length = length or self._keep("millimetre", self.millimetre)
         angle = angle or self._keep("radian", self.radian)
         solid_angle = self._keep(
-            "steradian", lambda: self.add_complex(NAMED_UNIT=(DERIVED,), SI_UNIT=(None, Enum("STERADIAN")), SOLID_ANGLE_UNIT=())
+            "steradian",
+            lambda: self.add_complex(NAMED_UNIT=(DERIVED,), SI_UNIT=(None, Enum("STERADIAN")), SOLID_ANGLE_UNIT=()),
         )
         parts: dict = {"GEOMETRIC_REPRESENTATION_CONTEXT": (3,)}
         if uncertainty is not None:
             measure = self.add(
-                "UNCERTAINTY_MEASURE_WITH_UNIT", Typed("LENGTH_MEASURE", uncertainty), length, "distance_accuracy_value", ""
+                "UNCERTAINTY_MEASURE_WITH_UNIT",
+                Typed("LENGTH_MEASURE", uncertainty),
+                length,
+                "distance_accuracy_value",
+                "",
             )
             parts["GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT"] = ([measure],)
         parts["GLOBAL_UNIT_ASSIGNED_CONTEXT"] = ([length, angle, solid_angle],)
@@ -237,7 +244,9 @@ class StepModel(Part21):
         return self._keep(
             "2d",
             lambda: self.add_complex(
-                GEOMETRIC_REPRESENTATION_CONTEXT=(2,), PARAMETRIC_REPRESENTATION_CONTEXT=(), REPRESENTATION_CONTEXT=("", "")
+                GEOMETRIC_REPRESENTATION_CONTEXT=(2,),
+                PARAMETRIC_REPRESENTATION_CONTEXT=(),
+                REPRESENTATION_CONTEXT=("", ""),
             ),
         )
 
@@ -285,7 +294,9 @@ class StepModel(Part21):
             "design",
             "",
             formation,
-            self._keep("part", lambda: self.add("PRODUCT_DEFINITION_CONTEXT", "part definition", application, "design")),
+            self._keep(
+                "part", lambda: self.add("PRODUCT_DEFINITION_CONTEXT", "part definition", application, "design")
+            ),
         )
         shape_definition = self.add("PRODUCT_DEFINITION_SHAPE", "", "", definition)
         self.add("SHAPE_DEFINITION_REPRESENTATION", shape_definition, shape)
@@ -366,4 +377,3 @@ def polygon_figures(points) -> tuple[float, Point, Point]:
         signed = sum(a * b for a, b in zip(n, normal)) / 2
         moment = plus(moment, times(signed / area, centre))
     return area, normal, moment
-

@@ -47,7 +47,15 @@ def reference(model: StepModel, tree, placements, scales=None, name: str = "bric
     area = AREA * sum(s**2 for s in scales)
     volume = VOLUME * sum(s**3 for s in scales)
     count = len(placements)
-    part = {"name": name, "instances": count, "solids": 1, "faces": 6, "closed": True, "area_mm2": AREA, "volume_mm3": VOLUME}
+    part = {
+        "name": name,
+        "instances": count,
+        "solids": 1,
+        "faces": 6,
+        "closed": True,
+        "area_mm2": AREA,
+        "volume_mm3": VOLUME,
+    }
     return {
         **figures,
         "area_mm2": area,
@@ -76,7 +84,10 @@ def assembly_usage():
     return model, reference(model, tree, placements)
 
 
-@hand("assembly_usage_swapped", "the relationship names parent before child, with the transformation's items swapped likewise")
+@hand(
+    "assembly_usage_swapped",
+    "the relationship names parent before child, with the transformation's items swapped likewise",
+)
 def assembly_usage_swapped():
     model = StepModel()
     part = box_part(model)
@@ -148,7 +159,12 @@ def assembly_deep():
         if level == 20:
             tree = [{"name": "level 20", "children": [node]}]
         else:
-            node = {"name": f"level {level}", "instance": f"use {level}", "placement_mm": rows(*step), "children": [node]}
+            node = {
+                "name": f"level {level}",
+                "instance": f"use {level}",
+                "placement_mm": rows(*step),
+                "children": [node],
+            }
             total = times(rows(*step), total)
         below = above
     return model, reference(model, tree, [total])
@@ -272,11 +288,15 @@ def assembly_several_roots():
     model.product("plate", [body], representation="MANIFOLD_SURFACE_SHAPE_REPRESENTATION")
     area = AREA + 36 * pi + 16
     tree = [{"name": "wall", "children": [leaf("brick", rows((10.0, 0.0, 0.0)))]}, {"name": "ball"}, {"name": "plate"}]
-    figures = model.reference(bbox=[[-13.0, -3.0, -5.0], [15.0, 4.0, 9.0]], volume=VOLUME + 36 * pi, closed=False, solids=2)
+    figures = model.reference(
+        bbox=[[-13.0, -3.0, -5.0], [15.0, 4.0, 9.0]], volume=VOLUME + 36 * pi, closed=False, solids=2
+    )
     return model, {**figures, "area_mm2": area, "tree": tree}
 
 
-@hand("assembly_products_without_shape", "an assembly with a child that has no shape at all, and one whose shape is empty")
+@hand(
+    "assembly_products_without_shape", "an assembly with a child that has no shape at all, and one whose shape is empty"
+)
 def assembly_products_without_shape():
     model = StepModel()
     part = box_part(model)
@@ -303,14 +323,19 @@ def assembly_two_bodies_one_product():
     model = StepModel()
     product = box_part(model)
     other = model.add(
-        "ADVANCED_BREP_SHAPE_REPRESENTATION", "", [product.axes, model.box((11.0, 2.0, 3.0), (15.0, 4.0, 9.0))], product.context
+        "ADVANCED_BREP_SHAPE_REPRESENTATION",
+        "",
+        [product.axes, model.box((11.0, 2.0, 3.0), (15.0, 4.0, 9.0))],
+        product.context,
     )
     model.add("SHAPE_DEFINITION_REPRESENTATION", product.shape_definition, other)
     figures = model.reference(volume=2 * VOLUME, bbox=[list(LOW), [15.0, 4.0, 9.0]], solids=2)
     return model, {**figures, "tree": [{"name": "brick"}]}
 
 
-@hand("assembly_instance_names", "occurrences named by id, by name, by both, by neither; products with an id but no name")
+@hand(
+    "assembly_instance_names", "occurrences named by id, by name, by both, by neither; products with an id but no name"
+)
 def assembly_instance_names():
     model = StepModel()
     part = model.product("", [model.box(LOW, HIGH)], product_id="4711-B")
@@ -337,5 +362,3 @@ def assembly_instance_names():
             del node["instance"]
         children.append(node)
     return model, reference(model, [{"name": "rack", "children": children}], placements, name="4711-B")
-
-

@@ -170,7 +170,13 @@ def curve_polyline_closed():
 def composite(model: StepModel, z: float) -> Ref:
     """Line, arc and line; the arc's own curve runs backward."""
     line = lambda a, b: model.add(  # noqa: E731
-        "TRIMMED_CURVE", "", model.line((*a, z), (*b, z)), [model.point((*a, z))], [model.point((*b, z))], TRUE, CARTESIAN
+        "TRIMMED_CURVE",
+        "",
+        model.line((*a, z), (*b, z)),
+        [model.point((*a, z))],
+        [model.point((*b, z))],
+        TRUE,
+        CARTESIAN,
     )
     arc = model.add(
         "TRIMMED_CURVE",
@@ -339,12 +345,18 @@ def cylinder_faces(model: StepModel, rim, seam=None):
     up = model.edge((10.0, 0.0, 0.0), (10.0, 0.0, 30.0), seam(wall_surface, line) if seam else line)
     low, high = edges
     wall = model.face(
-        wall_surface, [model.loop(low, up, (high, False), (up, False))], kind="cylinder", area=600 * pi, centroid=(0.0, 0.0, 15.0)
+        wall_surface,
+        [model.loop(low, up, (high, False), (up, False))],
+        kind="cylinder",
+        area=600 * pi,
+        centroid=(0.0, 0.0, 15.0),
     )
     floor = model.face(
         model.plane(axis=(0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=100 * pi, centroid=ORIGIN
     )
-    lid = model.face(model.plane((0.0, 0.0, 30.0)), [model.loop(high)], kind="plane", area=100 * pi, centroid=(0.0, 0.0, 30.0))
+    lid = model.face(
+        model.plane((0.0, 0.0, 30.0)), [model.loop(high)], kind="plane", area=100 * pi, centroid=(0.0, 0.0, 30.0)
+    )
     return [wall, floor, lid]
 
 
@@ -417,10 +429,12 @@ def curve_long_line_vector():
     start = (15.0 + 8 / sqrt(5), 10.0 + 4 / sqrt(5), 0.0)
     ring = model.edge(start, start, hole)
     face = model.face(
-        model.plane(), [model.loop(*edges), model.loop((ring, False))], kind="plane", area=600 - 16 * pi, centroid=(15.0, 10.0, 0.0)
+        model.plane(),
+        [model.loop(*edges), model.loop((ring, False))],
+        kind="plane",
+        area=600 - 16 * pi,
+        centroid=(15.0, 10.0, 0.0),
     )
     body = model.add("SHELL_BASED_SURFACE_MODEL", "", [model.add("OPEN_SHELL", "", [face])])
     model.product("curve_long_line_vector", [body], representation="MANIFOLD_SURFACE_SHAPE_REPRESENTATION")
     return model, model.reference(bbox=[[0.0] * 3, [30.0, 20.0, 0.0]], closed=False)
-
-

@@ -20,14 +20,21 @@ def sheet(model: StepModel, name: str, faces) -> None:
 def disc(model: StepModel, ring: Ref, forward: bool, origin, normal, x, radius: float) -> Ref:
     """The disc within a ring that is an edge of another face too."""
     return model.face(
-        model.plane(origin, normal, x), [model.loop((ring, forward))], kind="plane", area=pi * radius**2, centroid=origin
+        model.plane(origin, normal, x),
+        [model.loop((ring, forward))],
+        kind="plane",
+        area=pi * radius**2,
+        centroid=origin,
     )
 
 
 @hand("sphere_no_bounds", "a whole sphere: a face without bounds")
 def sphere_no_bounds():
     model = StepModel()
-    model.product("sphere_no_bounds", [model.solid([model.face(model.sphere(10.0), [], kind="sphere", area=400 * pi, centroid=ORIGIN)])])
+    model.product(
+        "sphere_no_bounds",
+        [model.solid([model.face(model.sphere(10.0), [], kind="sphere", area=400 * pi, centroid=ORIGIN)])],
+    )
     return model, model.reference(volume=4000 * pi / 3, bbox=ball_box(10.0))
 
 
@@ -43,7 +50,9 @@ def sphere_vertex_loop():
 @hand("sphere_vertex_loop_anywhere", "a whole sphere bounded by a vertex loop that is on no pole and no seam")
 def sphere_vertex_loop_anywhere():
     model = StepModel()
-    face = model.face(model.sphere(10.0), [model.vertex_loop((-6.0, 0.0, 8.0))], kind="sphere", area=400 * pi, centroid=ORIGIN)
+    face = model.face(
+        model.sphere(10.0), [model.vertex_loop((-6.0, 0.0, 8.0))], kind="sphere", area=400 * pi, centroid=ORIGIN
+    )
     model.product("sphere_vertex_loop_anywhere", [model.solid([face])])
     return model, model.reference(volume=4000 * pi / 3, bbox=ball_box(10.0))
 
@@ -92,7 +101,9 @@ def sphere_without_cap():
     model = StepModel()
     area, height, volume = cap_figures(10.0, -6.0)
     ring = model.ring((0.0, 0.0, 6.0), Z, X, 8.0)
-    bowl = model.face(model.sphere(10.0), [model.loop((ring, False))], kind="sphere", area=area, centroid=(0.0, 0.0, -height))
+    bowl = model.face(
+        model.sphere(10.0), [model.loop((ring, False))], kind="sphere", area=area, centroid=(0.0, 0.0, -height)
+    )
     lid = disc(model, ring, True, (0.0, 0.0, 6.0), Z, X, 8.0)
     model.product("sphere_without_cap", [model.solid([bowl, lid])])
     return model, model.reference(volume=volume, bbox=[[-10.0] * 3, [10.0, 10.0, 6.0]])
@@ -134,7 +145,11 @@ def sphere_with_small_hole():
     ring = model.ring(centre, SLANT, SLANT_X, radius)
     rest = 400 * pi - area
     ball = model.face(
-        model.sphere(10.0), [model.loop((ring, False))], kind="sphere", area=rest, centroid=times(-area * height / rest, SLANT)
+        model.sphere(10.0),
+        [model.loop((ring, False))],
+        kind="sphere",
+        area=rest,
+        centroid=times(-area * height / rest, SLANT),
     )
     lid = disc(model, ring, True, centre, SLANT, SLANT_X, radius)
     model.product("sphere_with_small_hole", [model.solid([ball, lid])])
@@ -147,7 +162,11 @@ def sphere_zone_two_circles():
     low = model.ring((0.0, 0.0, -6.0), Z, X, 8.0)
     high = model.ring((0.0, 0.0, 8.0), Z, X, 6.0)
     zone = model.face(
-        model.sphere(10.0), [model.loop(low), model.loop((high, False))], kind="sphere", area=280 * pi, centroid=(0.0, 0.0, 1.0)
+        model.sphere(10.0),
+        [model.loop(low), model.loop((high, False))],
+        kind="sphere",
+        area=280 * pi,
+        centroid=(0.0, 0.0, 1.0),
     )
     floor = disc(model, low, False, (0.0, 0.0, -6.0), (0.0, 0.0, -1.0), X, 8.0)
     lid = disc(model, high, True, (0.0, 0.0, 8.0), Z, X, 6.0)
@@ -162,9 +181,17 @@ def cylinder_two_circles():
     low = model.ring(ORIGIN, Z, X, 10.0)
     high = model.ring((0.0, 0.0, 30.0), Z, X, 10.0)
     wall = model.face(
-        model.cylinder(10.0), [model.loop(low), model.loop((high, False))], kind="cylinder", area=600 * pi, centroid=(0.0, 0.0, 15.0)
+        model.cylinder(10.0),
+        [model.loop(low), model.loop((high, False))],
+        kind="cylinder",
+        area=600 * pi,
+        centroid=(0.0, 0.0, 15.0),
     )
-    faces = [wall, disc(model, low, False, ORIGIN, (0.0, 0.0, -1.0), X, 10.0), disc(model, high, True, (0.0, 0.0, 30.0), Z, X, 10.0)]
+    faces = [
+        wall,
+        disc(model, low, False, ORIGIN, (0.0, 0.0, -1.0), X, 10.0),
+        disc(model, high, True, (0.0, 0.0, 30.0), Z, X, 10.0),
+    ]
     model.product("cylinder_two_circles", [model.solid(faces)])
     return model, model.reference(volume=3000 * pi, bbox=[[-10.0, -10.0, 0.0], [10.0, 10.0, 30.0]])
 
@@ -175,9 +202,18 @@ def cylinder_turned_vertices():
     low = model.ring(ORIGIN, Z, (-0.6, 0.8, 0.0), 10.0)
     high = model.ring((0.0, 0.0, 30.0), Z, (0.0, -1.0, 0.0), 10.0)
     wall = model.face(
-        model.cylinder(10.0), [model.loop((high, False)), model.loop(low)], kind="cylinder", area=600 * pi, centroid=(0.0, 0.0, 15.0), outer=False
+        model.cylinder(10.0),
+        [model.loop((high, False)), model.loop(low)],
+        kind="cylinder",
+        area=600 * pi,
+        centroid=(0.0, 0.0, 15.0),
+        outer=False,
     )
-    faces = [wall, disc(model, low, False, ORIGIN, (0.0, 0.0, -1.0), X, 10.0), disc(model, high, True, (0.0, 0.0, 30.0), Z, X, 10.0)]
+    faces = [
+        wall,
+        disc(model, low, False, ORIGIN, (0.0, 0.0, -1.0), X, 10.0),
+        disc(model, high, True, (0.0, 0.0, 30.0), Z, X, 10.0),
+    ]
     model.product("cylinder_turned_vertices", [model.solid(faces)])
     return model, model.reference(volume=3000 * pi, bbox=[[-10.0, -10.0, 0.0], [10.0, 10.0, 30.0]])
 
@@ -188,17 +224,29 @@ def cylinder_split_circles():
 
     def arcs(z: float, angles) -> list[Ref]:
         points = [(10 * cos(a), 10 * sin(a), z) for a in angles]
-        return [model.edge(a, b, model.circle((0.0, 0.0, z), Z, X, 10.0)) for a, b in zip(points, points[1:] + points[:1])]
+        return [
+            model.edge(a, b, model.circle((0.0, 0.0, z), Z, X, 10.0)) for a, b in zip(points, points[1:] + points[:1])
+        ]
 
     low, high = arcs(0.0, [1.0, 4.0]), arcs(30.0, [0.5, 2.0, 5.0])
     back = [(edge, False) for edge in reversed(high)]
     wall = model.face(
-        model.cylinder(10.0), [model.loop(*low), model.loop(*back)], kind="cylinder", area=600 * pi, centroid=(0.0, 0.0, 15.0)
+        model.cylinder(10.0),
+        [model.loop(*low), model.loop(*back)],
+        kind="cylinder",
+        area=600 * pi,
+        centroid=(0.0, 0.0, 15.0),
     )
     floor = model.face(
-        model.plane(ORIGIN, (0.0, 0.0, -1.0)), [model.loop(*((e, False) for e in reversed(low)))], kind="plane", area=100 * pi, centroid=ORIGIN
+        model.plane(ORIGIN, (0.0, 0.0, -1.0)),
+        [model.loop(*((e, False) for e in reversed(low)))],
+        kind="plane",
+        area=100 * pi,
+        centroid=ORIGIN,
     )
-    lid = model.face(model.plane((0.0, 0.0, 30.0)), [model.loop(*high)], kind="plane", area=100 * pi, centroid=(0.0, 0.0, 30.0))
+    lid = model.face(
+        model.plane((0.0, 0.0, 30.0)), [model.loop(*high)], kind="plane", area=100 * pi, centroid=(0.0, 0.0, 30.0)
+    )
     model.product("cylinder_split_circles", [model.solid([wall, floor, lid])])
     return model, model.reference(volume=3000 * pi, bbox=[[-10.0, -10.0, 0.0], [10.0, 10.0, 30.0]])
 
@@ -227,10 +275,17 @@ def cylinder_with_window():
     )
     segment = 100 * (a - sin(a) * cos(a))
     glass = model.polygon_face(corner[-1, 10.0], corner[1, 10.0], corner[1, 20.0], corner[-1, 20.0])
-    chord_low, chord_high = model.straight(corner[-1, 10.0], corner[1, 10.0])[0], model.straight(corner[1, 20.0], corner[-1, 20.0])[0]
+    chord_low, chord_high = (
+        model.straight(corner[-1, 10.0], corner[1, 10.0])[0],
+        model.straight(corner[1, 20.0], corner[-1, 20.0])[0],
+    )
     at = (2 * 10 * sin(a)) ** 3 / (12 * segment)
     sill = model.face(
-        model.plane((0.0, 0.0, 10.0)), [model.loop(bottom, (chord_low, False))], kind="plane", area=segment, centroid=(at, 0.0, 10.0)
+        model.plane((0.0, 0.0, 10.0)),
+        [model.loop(bottom, (chord_low, False))],
+        kind="plane",
+        area=segment,
+        centroid=(at, 0.0, 10.0),
     )
     lintel = model.face(
         model.plane((0.0, 0.0, 20.0), (0.0, 0.0, -1.0)),
@@ -240,7 +295,10 @@ def cylinder_with_window():
         centroid=(at, 0.0, 20.0),
     )
     faces = [wall, glass, sill, lintel]
-    faces += [disc(model, low, False, ORIGIN, (0.0, 0.0, -1.0), X, 10.0), disc(model, high, True, (0.0, 0.0, 30.0), Z, X, 10.0)]
+    faces += [
+        disc(model, low, False, ORIGIN, (0.0, 0.0, -1.0), X, 10.0),
+        disc(model, high, True, (0.0, 0.0, 30.0), Z, X, 10.0),
+    ]
     model.product("cylinder_with_window", [model.solid(faces)])
     return model, model.reference(volume=3000 * pi - 10 * segment, bbox=[[-10.0, -10.0, 0.0], [10.0, 10.0, 30.0]])
 
@@ -261,7 +319,11 @@ def frustum_two_circles():
         area=side,
         centroid=(0.0, 0.0, height),
     )
-    faces = [wall, disc(model, low, False, ORIGIN, (0.0, 0.0, -1.0), X, 10.0), disc(model, high, True, (0.0, 0.0, 20.0), Z, X, 4.0)]
+    faces = [
+        wall,
+        disc(model, low, False, ORIGIN, (0.0, 0.0, -1.0), X, 10.0),
+        disc(model, high, True, (0.0, 0.0, 20.0), Z, X, 4.0),
+    ]
     model.product("frustum_two_circles", [model.solid(faces)])
     return model, model.reference(volume=pi * 20 * 156 / 3, bbox=[[-10.0, -10.0, 0.0], [10.0, 10.0, 20.0]])
 
@@ -305,7 +367,9 @@ def cone_seam_to_apex():
         area=pi * 10 * sqrt(725),
         centroid=(0.0, 0.0, 25 / 3),
     )
-    model.product("cone_seam_to_apex", [model.solid([wall, disc(model, low, False, ORIGIN, (0.0, 0.0, -1.0), X, 10.0)])])
+    model.product(
+        "cone_seam_to_apex", [model.solid([wall, disc(model, low, False, ORIGIN, (0.0, 0.0, -1.0), X, 10.0)])]
+    )
     return model, model.reference(volume=2500 * pi / 3, bbox=[[-10.0, -10.0, 0.0], [10.0, 10.0, 25.0]])
 
 
@@ -323,7 +387,9 @@ def torus_no_bounds():
 @hand("torus_vertex_loop", "a whole torus bounded by a vertex loop")
 def torus_vertex_loop():
     model = StepModel()
-    face = model.face(model.torus(20.0, 5.0), [model.vertex_loop((25.0, 0.0, 0.0))], kind="torus", area=400 * pi**2, centroid=ORIGIN)
+    face = model.face(
+        model.torus(20.0, 5.0), [model.vertex_loop((25.0, 0.0, 0.0))], kind="torus", area=400 * pi**2, centroid=ORIGIN
+    )
     model.product("torus_vertex_loop", [model.solid([face])])
     return model, model.reference(volume=1000 * pi**2, bbox=TORUS_BOX)
 
@@ -372,7 +438,9 @@ def torus_half_tube_two_circles():
     return model, model.reference(volume=500 * pi**2, bbox=[[-25.0, -25.0, -5.0], [25.0, 25.0, 0.0]])
 
 
-@hand("bspline_tube_two_circles", "a rational B-spline cylinder, closed in u, between two wrapping circles without a seam")
+@hand(
+    "bspline_tube_two_circles", "a rational B-spline cylinder, closed in u, between two wrapping circles without a seam"
+)
 def bspline_tube_two_circles():
     model = StepModel()
     low, high = model.ring(ORIGIN, Z, X, 10.0), model.ring((0.0, 0.0, 30.0), Z, X, 10.0)
@@ -383,7 +451,13 @@ def bspline_tube_two_circles():
     surface = model.add_complex(
         BOUNDED_SURFACE=(),
         B_SPLINE_SURFACE=(2, 1, poles, Enum("UNSPECIFIED"), TRUE, FALSE, FALSE),
-        B_SPLINE_SURFACE_WITH_KNOTS=([3, 2, 2, 2, 3], [2, 2], [0.0, 0.25, 0.5, 0.75, 1.0], [0.0, 1.0], Enum("UNSPECIFIED")),
+        B_SPLINE_SURFACE_WITH_KNOTS=(
+            [3, 2, 2, 2, 3],
+            [2, 2],
+            [0.0, 0.25, 0.5, 0.75, 1.0],
+            [0.0, 1.0],
+            Enum("UNSPECIFIED"),
+        ),
         GEOMETRIC_REPRESENTATION_ITEM=(),
         RATIONAL_B_SPLINE_SURFACE=(weights,),
         REPRESENTATION_ITEM=("",),
@@ -392,7 +466,11 @@ def bspline_tube_two_circles():
     wall = model.face(
         surface, [model.loop(low), model.loop((high, False))], kind="bspline", area=600 * pi, centroid=(0.0, 0.0, 15.0)
     )
-    faces = [wall, disc(model, low, False, ORIGIN, (0.0, 0.0, -1.0), X, 10.0), disc(model, high, True, (0.0, 0.0, 30.0), Z, X, 10.0)]
+    faces = [
+        wall,
+        disc(model, low, False, ORIGIN, (0.0, 0.0, -1.0), X, 10.0),
+        disc(model, high, True, (0.0, 0.0, 30.0), Z, X, 10.0),
+    ]
     model.product("bspline_tube_two_circles", [model.solid(faces)])
     return model, model.reference(volume=3000 * pi, bbox=[[-10.0, -10.0, 0.0], [10.0, 10.0, 30.0]])
 
@@ -403,7 +481,11 @@ def cylinder_reversed():
     z = 10.0
     rings = {(r, h): model.ring((0.0, 0.0, h), Z, X, r) for r in (6.0, 10.0) for h in (0.0, z)}
     outer = model.face(
-        model.cylinder(10.0), [model.loop(rings[10.0, 0.0]), model.loop((rings[10.0, z], False))], kind="cylinder", area=200 * pi, centroid=(0.0, 0.0, 5.0)
+        model.cylinder(10.0),
+        [model.loop(rings[10.0, 0.0]), model.loop((rings[10.0, z], False))],
+        kind="cylinder",
+        area=200 * pi,
+        centroid=(0.0, 0.0, 5.0),
     )
     bore = model.face(
         model.cylinder(6.0),
@@ -429,5 +511,3 @@ def cylinder_reversed():
     )
     model.product("cylinder_reversed", [model.solid([outer, bore, floor, lid])])
     return model, model.reference(volume=640 * pi, bbox=[[-10.0, -10.0, 0.0], [10.0, 10.0, z]])
-
-

@@ -33,7 +33,9 @@ def side_plane(model: StepModel, side) -> Ref:
     return model.plane(side[0], normal, unit(plus(side[1], times(-1.0, side[0]))))
 
 
-def side_face(model: StepModel, side, loop: Ref, *, same_sense: bool = True, bound: bool = True, surface: Ref | None = None) -> Ref:
+def side_face(
+    model: StepModel, side, loop: Ref, *, same_sense: bool = True, bound: bool = True, surface: Ref | None = None
+) -> Ref:
     """A side of the box over any loop, recorded with the figures of the side that is meant."""
     area, _, centroid = polygon_figures(side)
     surface = surface or side_plane(model, side)
@@ -83,8 +85,12 @@ def edges_off_surfaces():
 
 def cylinder(model: StepModel, loop: Ref, low: Ref, high: Ref) -> list[Ref]:
     wall = model.face(model.cylinder(10.0), [loop], kind="cylinder", area=600 * pi, centroid=(0.0, 0.0, 15.0))
-    floor = model.face(model.plane(axis=(0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=100 * pi, centroid=ORIGIN)
-    lid = model.face(model.plane((0.0, 0.0, 30.0)), [model.loop(high)], kind="plane", area=100 * pi, centroid=(0.0, 0.0, 30.0))
+    floor = model.face(
+        model.plane(axis=(0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=100 * pi, centroid=ORIGIN
+    )
+    lid = model.face(
+        model.plane((0.0, 0.0, 30.0)), [model.loop(high)], kind="plane", area=100 * pi, centroid=(0.0, 0.0, 30.0)
+    )
     return [wall, floor, lid]
 
 
@@ -214,7 +220,10 @@ def edges_out_of_order():
     return model, box_reference(model)
 
 
-@sloppy("zero_length_edges", "loops with edges of length zero: between two vertices at one place, and from a vertex to itself")
+@sloppy(
+    "zero_length_edges",
+    "loops with edges of length zero: between two vertices at one place, and from a vertex to itself",
+)
 def zero_length_edges():
     model = StepModel()
     faces = []
@@ -238,7 +247,14 @@ def zero_length_edges():
 def tiny_edges():
     model = StepModel()
     tiny = 1e-6
-    points = [(0.0, 0.0, 0.0), (30.0, 0.0, 0.0), (30.0, tiny, 0.0), (30.0, 20.0, 0.0), (30.0 - tiny, 20.0, 0.0), (0.0, 20.0, 0.0)]
+    points = [
+        (0.0, 0.0, 0.0),
+        (30.0, 0.0, 0.0),
+        (30.0, tiny, 0.0),
+        (30.0, 20.0, 0.0),
+        (30.0 - tiny, 20.0, 0.0),
+        (0.0, 20.0, 0.0),
+    ]
     sheet(model, "tiny_edges", [model.polygon_face(*points)])
     return model, model.reference(bbox=[[0.0] * 3, [30.0, 20.0, 0.0]], closed=False, sloppy_mm=0.0)
 
@@ -251,7 +267,9 @@ def duplicate_points():
         doubled = [p for p in side for _ in range(2)] + [side[0]]
         poly = model.add("POLY_LOOP", "", [model.point(p) for p in doubled])
         area, _, centroid = polygon_figures(side)
-        face = model.add("FACE_SURFACE", "", [model.add("FACE_OUTER_BOUND", "", poly, TRUE)], side_plane(model, side), TRUE)
+        face = model.add(
+            "FACE_SURFACE", "", [model.add("FACE_OUTER_BOUND", "", poly, TRUE)], side_plane(model, side), TRUE
+        )
         model.faces.append(FaceFigures(face, "plane", area, centroid))
         faces.append(face)
     brep = model.add("FACETED_BREP", "", model.add("CLOSED_SHELL", "", faces))
@@ -347,14 +365,21 @@ def degrees_for_radians():
         area=pi * 26 * 6 * sqrt(2),
         centroid=(0.0, 0.0, 6 * (10 + 2 * 16) / (3 * 26)),
     )
-    floor = model.face(model.plane(axis=(0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=100 * pi, centroid=ORIGIN)
-    lid = model.face(model.plane((0.0, 0.0, 6.0)), [model.loop(high)], kind="plane", area=256 * pi, centroid=(0.0, 0.0, 6.0))
+    floor = model.face(
+        model.plane(axis=(0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=100 * pi, centroid=ORIGIN
+    )
+    lid = model.face(
+        model.plane((0.0, 0.0, 6.0)), [model.loop(high)], kind="plane", area=256 * pi, centroid=(0.0, 0.0, 6.0)
+    )
     finish(model, "degrees_for_radians", [wall, floor, lid])
     box = [[-16.0, -16.0, 0.0], [16.0, 16.0, 6.0]]
     return model, model.reference(volume=pi * 6 * (100 + 160 + 256) / 3, bbox=box, sloppy_mm=0.0)
 
 
-@sloppy("degrees_for_radians_trim", "arcs trimmed at parameters 0 and 180 although radians are declared; the vertices are right")
+@sloppy(
+    "degrees_for_radians_trim",
+    "arcs trimmed at parameters 0 and 180 although radians are declared; the vertices are right",
+)
 def degrees_for_radians_trim():
     def trimmed(model, z):
         return model.add("TRIMMED_CURVE", "", circle(model, z), [at(0.0)], [at(180.0)], TRUE, Enum("PARAMETER"))
@@ -442,7 +467,11 @@ def vertex_loop_beside_real_loops():
     model = StepModel()
     rim = model.polygon(ORIGIN, (30.0, 0.0, 0.0), (30.0, 20.0, 0.0), (0.0, 20.0, 0.0))
     stray = model.vertex_loop((10.0, 10.0, 0.0))
-    sheet(model, "vertex_loop_beside_real_loops", [model.face(model.plane(), [rim, stray], kind="plane", area=600.0, centroid=(15.0, 10.0, 0.0))])
+    sheet(
+        model,
+        "vertex_loop_beside_real_loops",
+        [model.face(model.plane(), [rim, stray], kind="plane", area=600.0, centroid=(15.0, 10.0, 0.0))],
+    )
     return model, model.reference(bbox=[[0.0] * 3, [30.0, 20.0, 0.0]], closed=False, sloppy_mm=0.0)
 
 
@@ -455,10 +484,18 @@ def circle_vertex_off():
         edges.append(model.edge(point, point, model.circle((0.0, 0.0, z), Z, X, 10.0)))
     low, high = edges
     wall = model.face(
-        model.cylinder(10.0), [model.loop(low), model.loop((high, False))], kind="cylinder", area=600 * pi, centroid=(0.0, 0.0, 15.0)
+        model.cylinder(10.0),
+        [model.loop(low), model.loop((high, False))],
+        kind="cylinder",
+        area=600 * pi,
+        centroid=(0.0, 0.0, 15.0),
     )
-    floor = model.face(model.plane(axis=(0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=100 * pi, centroid=ORIGIN)
-    lid = model.face(model.plane((0.0, 0.0, 30.0)), [model.loop(high)], kind="plane", area=100 * pi, centroid=(0.0, 0.0, 30.0))
+    floor = model.face(
+        model.plane(axis=(0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=100 * pi, centroid=ORIGIN
+    )
+    lid = model.face(
+        model.plane((0.0, 0.0, 30.0)), [model.loop(high)], kind="plane", area=100 * pi, centroid=(0.0, 0.0, 30.0)
+    )
     finish(model, "circle_vertex_off", [wall, floor, lid])
     return model, model.reference(**CYLINDER, sloppy_mm=0.01)
 

@@ -33,14 +33,14 @@ def assignment(model: StepModel, *elements, side: str = "BOTH") -> Ref:
 
 
 def paint(model: StepModel, item: Ref, colour, **options) -> Ref:
-    return model.add("STYLED_ITEM", "color", [assignment(model, fill(model, colour_rgb(model, colour)), **options)], item)
+    return model.add(
+        "STYLED_ITEM", "color", [assignment(model, fill(model, colour_rgb(model, colour)), **options)], item
+    )
 
 
 def present(model: StepModel, *styled) -> None:
     """Gathers styled items, as most files do."""
-    model.add(
-        "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION", "", list(styled), model.default_context()
-    )
+    model.add("MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION", "", list(styled), model.default_context())
 
 
 def boxed(model: StepModel, name: str):
@@ -97,7 +97,9 @@ def style_over_riding():
     return model, reference(model, colours)
 
 
-@hand("style_transparent", "SURFACE_STYLE_RENDERING_WITH_PROPERTIES with SURFACE_STYLE_TRANSPARENT 0.6, on one face 1.0")
+@hand(
+    "style_transparent", "SURFACE_STYLE_RENDERING_WITH_PROPERTIES with SURFACE_STYLE_TRANSPARENT 0.6, on one face 1.0"
+)
 def style_transparent():
     model = StepModel()
     solid, _, faces, _ = boxed(model, "style_transparent")
@@ -262,4 +264,8 @@ def style_curves():
         present(model, model.add("STYLED_ITEM", "", [model.add("PRESENTATION_STYLE_ASSIGNMENT", [style])], item))
     figures = model.reference(bbox=[[-4.0, -4.0, 0.0], [10.0, 4.0, 5.0]], closed=False)
     lengths = {hexadecimal(RED): 10.0, hexadecimal(BLUE): 8 * 3.141592653589793}
-    return model, {**figures, "colours": {}, "free_curves": {"count": 2, "length_mm": sum(lengths.values()), "colours": lengths}}
+    return model, {
+        **figures,
+        "colours": {},
+        "free_curves": {"count": 2, "length_mm": sum(lengths.values()), "colours": lengths},
+    }

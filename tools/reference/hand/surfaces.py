@@ -23,7 +23,10 @@ def hills(rows: int, columns: int) -> np.ndarray:
     """Poles over a square, waving."""
     return np.array(
         [
-            [(30 * i / (rows - 1), 24 * j / (columns - 1), 6 * sin(1.9 * i + 0.3) * cos(1.3 * j)) for j in range(columns)]
+            [
+                (30 * i / (rows - 1), 24 * j / (columns - 1), 6 * sin(1.9 * i + 0.3) * cos(1.3 * j))
+                for j in range(columns)
+            ]
             for i in range(rows)
         ]
     )
@@ -70,7 +73,11 @@ def surface_bspline_no_bounds():
     model = StepModel()
     patch = Patch(3, 2, hills(7, 5), quasi_uniform_knots(7, 3), quasi_uniform_knots(5, 2))
     area, centroid = patch.figures()
-    sheet(model, "surface_bspline_no_bounds", [model.face(write_surface(model, patch), [], kind="bspline", area=area, centroid=centroid)])
+    sheet(
+        model,
+        "surface_bspline_no_bounds",
+        [model.face(write_surface(model, patch), [], kind="bspline", area=area, centroid=centroid)],
+    )
     return model, model.reference(bbox=patch.box(), closed=False)
 
 
@@ -91,7 +98,9 @@ def degenerate_torus(name: str, outer: bool, bounded: bool):
         first, last = pole, 2 * pi - pole
     nodes, weights = np.polynomial.legendre.leggauss(60)
     v = (first + last) / 2 + (last - first) / 2 * nodes
-    volume = abs(pi * float(np.sum(weights * (MAJOR + MINOR * np.cos(v)) ** 2 * MINOR * np.cos(v))) * (last - first) / 2)
+    volume = abs(
+        pi * float(np.sum(weights * (MAJOR + MINOR * np.cos(v)) ** 2 * MINOR * np.cos(v))) * (last - first) / 2
+    )
     loops = []
     if bounded:
         # The meridian at u = 0 from pole to pole, there and back.
@@ -174,23 +183,39 @@ def trimmed_line(model: StepModel, a, b) -> Ref:
 @hand("surface_of_revolution_line", "SURFACE_OF_REVOLUTION over a slanting line: a cone")
 def surface_of_revolution_line():
     model = StepModel()
-    surface = model.add("SURFACE_OF_REVOLUTION", "", model.line((10.0, 0.0, 0.0), (4.0, 0.0, 20.0)), model.axis1(ORIGIN, Z))
+    surface = model.add(
+        "SURFACE_OF_REVOLUTION", "", model.line((10.0, 0.0, 0.0), (4.0, 0.0, 20.0)), model.axis1(ORIGIN, Z)
+    )
     low, high = model.ring(ORIGIN, Z, X, 10.0), model.ring((0.0, 0.0, 20.0), Z, X, 4.0)
     seam = model.straight((10.0, 0.0, 0.0), (4.0, 0.0, 20.0))[0]
     area = pi * 14 * sqrt(436)
     centroid = (0.0, 0.0, 20 * 18 / 42)
-    wall = model.face(surface, [model.loop(low, (seam, True), (high, False), (seam, False))], kind="revolution", area=area, centroid=centroid)
-    floor = model.face(model.plane(axis=(0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=100 * pi, centroid=ORIGIN)
-    lid = model.face(model.plane((0.0, 0.0, 20.0)), [model.loop(high)], kind="plane", area=16 * pi, centroid=(0.0, 0.0, 20.0))
+    wall = model.face(
+        surface,
+        [model.loop(low, (seam, True), (high, False), (seam, False))],
+        kind="revolution",
+        area=area,
+        centroid=centroid,
+    )
+    floor = model.face(
+        model.plane(axis=(0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=100 * pi, centroid=ORIGIN
+    )
+    lid = model.face(
+        model.plane((0.0, 0.0, 20.0)), [model.loop(high)], kind="plane", area=16 * pi, centroid=(0.0, 0.0, 20.0)
+    )
     model.product("surface_of_revolution_line", [model.solid([wall, floor, lid])])
     return model, model.reference(volume=pi * 20 * 156 / 3, bbox=[[-10.0, -10.0, 0.0], [10.0, 10.0, 20.0]])
 
 
-@hand("surface_of_revolution_skew_line", "SURFACE_OF_REVOLUTION over a line askew to the axis: a hyperboloid of one sheet")
+@hand(
+    "surface_of_revolution_skew_line", "SURFACE_OF_REVOLUTION over a line askew to the axis: a hyperboloid of one sheet"
+)
 def surface_of_revolution_skew_line():
     # The line (6, t, t): radius squared 36 + z^2 for z from -8 to 8.
     model = StepModel()
-    surface = model.add("SURFACE_OF_REVOLUTION", "", model.line((6.0, -8.0, -8.0), (6.0, 8.0, 8.0)), model.axis1(ORIGIN, Z))
+    surface = model.add(
+        "SURFACE_OF_REVOLUTION", "", model.line((6.0, -8.0, -8.0), (6.0, 8.0, 8.0)), model.axis1(ORIGIN, Z)
+    )
     x_low, x_high = (0.6, -0.8, 0.0), (0.6, 0.8, 0.0)
     low = model.ring((0.0, 0.0, -8.0), Z, x_low, 10.0)
     high = model.ring((0.0, 0.0, 8.0), Z, x_high, 10.0)
@@ -199,12 +224,22 @@ def surface_of_revolution_skew_line():
     k = sqrt(2) * 8
     area = 2 * pi * (8 * sqrt(36 + 128) + 36 / sqrt(2) * np.arcsinh(k / 6))
     wall = model.face(
-        surface, [model.loop(low, (seam, True), (high, False), (seam, False))], kind="revolution", area=float(area), centroid=ORIGIN
+        surface,
+        [model.loop(low, (seam, True), (high, False), (seam, False))],
+        kind="revolution",
+        area=float(area),
+        centroid=ORIGIN,
     )
     floor = model.face(
-        model.plane((0.0, 0.0, -8.0), (0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=100 * pi, centroid=(0.0, 0.0, -8.0)
+        model.plane((0.0, 0.0, -8.0), (0.0, 0.0, -1.0)),
+        [model.loop((low, False))],
+        kind="plane",
+        area=100 * pi,
+        centroid=(0.0, 0.0, -8.0),
     )
-    lid = model.face(model.plane((0.0, 0.0, 8.0)), [model.loop(high)], kind="plane", area=100 * pi, centroid=(0.0, 0.0, 8.0))
+    lid = model.face(
+        model.plane((0.0, 0.0, 8.0)), [model.loop(high)], kind="plane", area=100 * pi, centroid=(0.0, 0.0, 8.0)
+    )
     model.product("surface_of_revolution_skew_line", [model.solid([wall, floor, lid])])
     volume = pi * (36 * 16 + 2 * 512 / 3)
     return model, model.reference(volume=volume, bbox=[[-10.0, -10.0, -8.0], [10.0, 10.0, 8.0]])
@@ -242,7 +277,9 @@ def surface_of_revolution_half_circle():
 def surface_of_extrusion_long_vector():
     model = StepModel()
     circle = model.circle(ORIGIN, Z, X, 5.0)
-    surface = model.add("SURFACE_OF_LINEAR_EXTRUSION", "", circle, model.add("VECTOR", "", model.direction((3.0, 0.0, 4.0)), 2.5))
+    surface = model.add(
+        "SURFACE_OF_LINEAR_EXTRUSION", "", circle, model.add("VECTOR", "", model.direction((3.0, 0.0, 4.0)), 2.5)
+    )
     shift = (9.0, 0.0, 12.0)
     low, high = model.ring(ORIGIN, Z, X, 5.0), model.ring(shift, Z, X, 5.0)
     seam = model.straight((5.0, 0.0, 0.0), (14.0, 0.0, 12.0))[0]
@@ -250,8 +287,16 @@ def surface_of_extrusion_long_vector():
     t = (np.arange(4096) + 0.5) * 2 * pi / 4096
     element = 75 * np.sqrt(1 - (0.6 * np.sin(t)) ** 2)
     area = float(element.mean() * 2 * pi)
-    wall = model.face(surface, [model.loop(low, (seam, True), (high, False), (seam, False))], kind="extrusion", area=area, centroid=(4.5, 0.0, 6.0))
-    floor = model.face(model.plane(axis=(0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=25 * pi, centroid=ORIGIN)
+    wall = model.face(
+        surface,
+        [model.loop(low, (seam, True), (high, False), (seam, False))],
+        kind="extrusion",
+        area=area,
+        centroid=(4.5, 0.0, 6.0),
+    )
+    floor = model.face(
+        model.plane(axis=(0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=25 * pi, centroid=ORIGIN
+    )
     lid = model.face(model.plane(shift), [model.loop(high)], kind="plane", area=25 * pi, centroid=shift)
     model.product("surface_of_extrusion_long_vector", [model.solid([wall, floor, lid])])
     return model, model.reference(volume=300 * pi, bbox=[[-5.0, -5.0, 0.0], [14.0, 5.0, 12.0]])
@@ -261,7 +306,10 @@ def bounded_product(model: StepModel, name: str, surfaces) -> None:
     model.product(name, [model.add("GEOMETRIC_SET", "", list(surfaces))], representation=BOUNDED)
 
 
-@hand("surface_rectangular_trimmed", "RECTANGULAR_TRIMMED_SURFACE over cylinder, sphere and torus, one with u against the surface")
+@hand(
+    "surface_rectangular_trimmed",
+    "RECTANGULAR_TRIMMED_SURFACE over cylinder, sphere and torus, one with u against the surface",
+)
 def surface_rectangular_trimmed():
     model = StepModel()
     trim = lambda basis, u, v, us, vs: model.add(  # noqa: E731
@@ -290,7 +338,10 @@ def surface_rectangular_trimmed_degrees():
     patch = model.add("RECTANGULAR_TRIMMED_SURFACE", "", model.cylinder(10.0), 0.0, 90.0, 0.0, 12.0, TRUE, TRUE)
     model.faces.append(FaceFigures(patch, "cylinder", 5 * pi * 12, (20 / pi, 20 / pi, 6.0)))
     model.product(
-        "surface_rectangular_trimmed_degrees", [model.add("GEOMETRIC_SET", "", [patch])], representation=BOUNDED, context=context
+        "surface_rectangular_trimmed_degrees",
+        [model.add("GEOMETRIC_SET", "", [patch])],
+        representation=BOUNDED,
+        context=context,
     )
     return model, model.reference(bbox=[[0.0] * 3, [10.0, 10.0, 12.0]], closed=False)
 
@@ -323,7 +374,10 @@ def segment_2d(model: StepModel, surface: Ref, a, b) -> Ref:
     return model.pcurve(surface, trimmed)
 
 
-@hand("surface_curve_bounded", "CURVE_BOUNDED_SURFACE: a plane with OUTER_BOUNDARY_CURVE and a round BOUNDARY_CURVE as a hole")
+@hand(
+    "surface_curve_bounded",
+    "CURVE_BOUNDED_SURFACE: a plane with OUTER_BOUNDARY_CURVE and a round BOUNDARY_CURVE as a hole",
+)
 def surface_curve_bounded():
     model = StepModel()
     plane = model.plane((0.0, 0.0, 3.0))
@@ -339,7 +393,9 @@ def surface_curve_bounded():
     return model, model.reference(bbox=[[0.0, 0.0, 3.0], [20.0, 12.0, 3.0]], closed=False)
 
 
-@hand("surface_curve_bounded_implicit", "CURVE_BOUNDED_SURFACE with implicit_outer: a whole B-spline domain with a hole")
+@hand(
+    "surface_curve_bounded_implicit", "CURVE_BOUNDED_SURFACE with implicit_outer: a whole B-spline domain with a hole"
+)
 def surface_curve_bounded_implicit():
     model = StepModel()
     poles = np.array([[(10.0 * i, 10.0 * j, 0.0) for j in range(4)] for i in range(4)])
@@ -354,7 +410,10 @@ def surface_curve_bounded_implicit():
     return model, model.reference(bbox=[[0.0] * 3, [30.0, 30.0, 0.0]], closed=False)
 
 
-@hand("surface_curve_bounded_cylinder", "CURVE_BOUNDED_SURFACE on a cylinder with COMPOSITE_CURVE_ON_SURFACE and SURFACE_CURVEs inside")
+@hand(
+    "surface_curve_bounded_cylinder",
+    "CURVE_BOUNDED_SURFACE on a cylinder with COMPOSITE_CURVE_ON_SURFACE and SURFACE_CURVEs inside",
+)
 def surface_curve_bounded_cylinder():
     model = StepModel()
     basis = model.cylinder(10.0)
@@ -391,7 +450,9 @@ def surface_rectangular_composite():
 
     def patch(x: float, y: float, turned: bool) -> Ref:
         origin = (x, y, 0.0)
-        plane = model.plane(origin) if not turned else model.plane((x + 10.0, y, 0.0), (0.0, 0.0, -1.0), (-1.0, 0.0, 0.0))
+        plane = (
+            model.plane(origin) if not turned else model.plane((x + 10.0, y, 0.0), (0.0, 0.0, -1.0), (-1.0, 0.0, 0.0))
+        )
         basis = model.add("RECTANGULAR_TRIMMED_SURFACE", "", plane, 0.0, 10.0, 0.0, 8.0, TRUE, TRUE)
         continuous = Enum("CONTINUOUS")
         return model.add("SURFACE_PATCH", basis, continuous, continuous, FALSE if turned else TRUE, TRUE)
@@ -401,5 +462,3 @@ def surface_rectangular_composite():
     model.faces.append(FaceFigures(surface, "other", 320.0, (10.0, 8.0, 0.0)))
     bounded_product(model, "surface_rectangular_composite", [surface])
     return model, model.reference(bbox=[[0.0] * 3, [20.0, 16.0, 0.0]], closed=False)
-
-

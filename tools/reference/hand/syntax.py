@@ -164,7 +164,12 @@ def text_huge_ids():
 def text_numbers():
     model = box_model("text_numbers")
     text = model.text()
-    text = text.replace("30.,", "+3.0E+1,").replace("20.,", "2.e1,").replace(",10.)", ",1000.0E-02)").replace("0.,", "-0.0,")
+    text = (
+        text.replace("30.,", "+3.0E+1,")
+        .replace("20.,", "2.e1,")
+        .replace(",10.)", ",1000.0E-02)")
+        .replace("0.,", "-0.0,")
+    )
     return text, reference(model, "text_numbers")
 
 
@@ -175,7 +180,10 @@ def text_integers_for_reals():
     return text, reference(model, "text_integers_for_reals")
 
 
-@hand("text_user_defined", "user-defined keywords, binary values, nested lists, typed and omitted parameters that mean nothing here")
+@hand(
+    "text_user_defined",
+    "user-defined keywords, binary values, nested lists, typed and omitted parameters that mean nothing here",
+)
 def text_user_defined():
     model = box_model("text_user_defined")
     model.add("!TRIMLOOP_NOTE", 'it is a "box"', Raw('"23F0A"'), [[1, 2], [], [[3.5, None]]], Raw("!LENGTH(2.)"))
@@ -254,7 +262,7 @@ for _name, _schema in SCHEMAS.items():
         return model, reference(model, name)
 
 
-@hand("container.step.gz", "a gzip file around a STEP file")
+@hand("container_gzip", "a gzip file around a STEP file", extension=".step.gz")
 def container_gzip():
     model = box_model("container")
     buffer = io.BytesIO()
@@ -263,11 +271,10 @@ def container_gzip():
     return buffer.getvalue(), reference(model, "container")
 
 
-@hand("container.stpz", "a zip file around a STEP file (.stpz)")
+@hand("container_zip", "a zip file around a STEP file", extension=".stpz")
 def container_zip():
     model = box_model("container")
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as packed:
         packed.writestr(zipfile.ZipInfo("container.stp", (2000, 1, 1, 0, 0, 0)), model.text(), zipfile.ZIP_DEFLATED)
     return buffer.getvalue(), reference(model, "container")
-

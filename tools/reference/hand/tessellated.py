@@ -72,16 +72,23 @@ def tessellated_shell():
     return model, model.reference(bbox=BOX, closed=False)
 
 
-@hand("tessellated_separate_lists", "a solid each of whose faces has a coordinates list of its own: corners must be welded")
+@hand(
+    "tessellated_separate_lists",
+    "a solid each of whose faces has a coordinates list of its own: corners must be welded",
+)
 def tessellated_separate_lists():
     model = StepModel(AP242)
     faces = []
     for side, normal in zip(SIDES, NORMALS):
         points = [corners()[i - 1] for i in side]
         list_ = coordinates(model, points)
-        face = model.add("TRIANGULATED_FACE", "", list_, 4, [tuple(map(float, normal))], None, [], [(1, 2, 3), (1, 3, 4)])
+        face = model.add(
+            "TRIANGULATED_FACE", "", list_, 4, [tuple(map(float, normal))], None, [], [(1, 2, 3), (1, 3, 4)]
+        )
         faces.append(record(model, face, points, [(0, 1, 2), (0, 2, 3)]))
-    model.product("tessellated_separate_lists", [model.add("TESSELLATED_SOLID", "", faces, None)], representation=TESSELLATED)
+    model.product(
+        "tessellated_separate_lists", [model.add("TESSELLATED_SOLID", "", faces, None)], representation=TESSELLATED
+    )
     return model, model.reference(volume=6000.0, bbox=BOX)
 
 
@@ -128,11 +135,16 @@ def tessellated_strips_and_fans():
     for strips, fans in octagon_parts():
         face = model.add("COMPLEX_TRIANGULATED_FACE", "", list_, 18, [], None, list(range(1, 19)), strips, fans)
         faces.append(record(model, face, points, as_triangles(strips, fans)))
-    model.product("tessellated_strips_and_fans", [model.add("TESSELLATED_SOLID", "", faces, None)], representation=TESSELLATED)
+    model.product(
+        "tessellated_strips_and_fans", [model.add("TESSELLATED_SOLID", "", faces, None)], representation=TESSELLATED
+    )
     return model, model.reference(**OCTAGON)
 
 
-@hand("tessellated_surface_sets", "TRIANGULATED_SURFACE_SET and COMPLEX_TRIANGULATED_SURFACE_SET in a TESSELLATED_GEOMETRIC_SET")
+@hand(
+    "tessellated_surface_sets",
+    "TRIANGULATED_SURFACE_SET and COMPLEX_TRIANGULATED_SURFACE_SET in a TESSELLATED_GEOMETRIC_SET",
+)
 def tessellated_surface_sets():
     model = StepModel(AP242)
     points = octagon_points()
@@ -203,7 +215,9 @@ def tessellated_vertex_normals():
     triangles = [tuple(i + 1 for i in f) for f in faces]
     face = model.add("TRIANGULATED_FACE", "", list_, len(points), normals, None, [], triangles)
     record(model, face, points, faces)
-    model.product("tessellated_vertex_normals", [model.add("TESSELLATED_SOLID", "", [face], None)], representation=TESSELLATED)
+    model.product(
+        "tessellated_vertex_normals", [model.add("TESSELLATED_SOLID", "", [face], None)], representation=TESSELLATED
+    )
     p = np.array(points)
     volume = float(sum(np.dot(p[a], np.cross(p[b], p[c])) for a, b, c in faces) / 6)
     return model, model.reference(volume=volume, bbox=[[-10.0] * 3, [10.0] * 3])

@@ -190,9 +190,7 @@ def geometric_curve_set():
         Enum("CARTESIAN"),
     )
     items = model.add("GEOMETRIC_CURVE_SET", "", [polyline, circle, arc, model.point((5.0, 5.0, 20.0))])
-    model.product(
-        "geometric_curve_set", [items], representation="GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION"
-    )
+    model.product("geometric_curve_set", [items], representation="GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION")
     reference = model.reference(bbox=[[0.0, 0.0, 0.0], [45.0, 10.0, 5.0]], closed=False)
     length = 20 + sqrt(125) + 10 * pi + 2.5 * pi
     return model, {**reference, "free_curves": {"count": 3, "length_mm": length}}

@@ -56,7 +56,9 @@ def unit_foot_of_inches():
 def unit_measure_with_prefix():
     model = StepModel()
     base = model.si_length("MILLI")
-    measure = model.add_complex(LENGTH_MEASURE_WITH_UNIT=(), MEASURE_WITH_UNIT=(Typed("POSITIVE_LENGTH_MEASURE", 25.4), base))
+    measure = model.add_complex(
+        LENGTH_MEASURE_WITH_UNIT=(), MEASURE_WITH_UNIT=(Typed("POSITIVE_LENGTH_MEASURE", 25.4), base)
+    )
     exponents = model.add("DIMENSIONAL_EXPONENTS", 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     unit = model.add_complex(CONVERSION_BASED_UNIT=("INCH", measure), LENGTH_UNIT=(), NAMED_UNIT=(exponents,))
     return unit_box("unit_measure_with_prefix", model.context(unit), 25.4, model)
@@ -82,8 +84,12 @@ def unit_degree():
         area=pi * 26 * 6 * sqrt(2),
         centroid=(0.0, 0.0, 6 * (10 + 2 * 16) / (3 * 26)),
     )
-    floor = model.face(model.plane(axis=(0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=100 * pi, centroid=ORIGIN)
-    lid = model.face(model.plane((0.0, 0.0, 6.0)), [model.loop(high)], kind="plane", area=256 * pi, centroid=(0.0, 0.0, 6.0))
+    floor = model.face(
+        model.plane(axis=(0.0, 0.0, -1.0)), [model.loop((low, False))], kind="plane", area=100 * pi, centroid=ORIGIN
+    )
+    lid = model.face(
+        model.plane((0.0, 0.0, 6.0)), [model.loop(high)], kind="plane", area=256 * pi, centroid=(0.0, 0.0, 6.0)
+    )
     model.product("unit_degree", [model.solid([wall, floor, lid])], context=context)
     return model, model.reference(volume=pi * 6 * (100 + 160 + 256) / 3, bbox=[[-16.0, -16.0, 0.0], [16.0, 16.0, 6.0]])
 
@@ -128,7 +134,9 @@ def unit_context_per_body():
     model.add("SHAPE_REPRESENTATION_RELATIONSHIP", "", "", product.representation, other)
     faces = [f.line() for f in model.faces[:6]] + [f.line(25.4) for f in model.faces[6:]]
     area = 600 + 6 * 25.4**2
-    reference = model.reference(bbox=[[0.0] * 3, [50.8, 25.4, 25.4]], volume=1000 + 25.4**3, solids=2, face_areas_mm2=faces)
+    reference = model.reference(
+        bbox=[[0.0] * 3, [50.8, 25.4, 25.4]], volume=1000 + 25.4**3, solids=2, face_areas_mm2=faces
+    )
     return model, {**reference, "area_mm2": area, "colours": {"none": area}}
 
 

@@ -66,7 +66,11 @@ def assembly_same_names():
     root = tool.NewShape()
     set_name(root, "twins")
     for k, (shape, name) in enumerate(
-        [(cq.Workplane().box(4, 4, 4), "part"), (cq.Workplane().sphere(3), "part"), (cq.Workplane().circle(2).extrude(5), "")]
+        [
+            (cq.Workplane().box(4, 4, 4), "part"),
+            (cq.Workplane().sphere(3), "part"),
+            (cq.Workplane().circle(2).extrude(5), ""),
+        ]
     ):
         label = tool.AddShape(shape.val().wrapped, False)
         set_name(label, name)
@@ -102,14 +106,18 @@ def colour_face_over_body():
     box = cq.Workplane().box(30, 20, 10).faces(">Z").workplane().hole(6).val()
     top = cq.Workplane(box).faces(">Z").val()
     bottom = cq.Workplane(box).faces("<Z").val()
-    return coloured_document("colour_face_over_body", box, (0.4, 0.4, 0.4, 1), [(top, (1, 0, 0, 1)), (bottom, (0, 0.2, 0.8, 0.25))])
+    return coloured_document(
+        "colour_face_over_body", box, (0.4, 0.4, 0.4, 1), [(top, (1, 0, 0, 1)), (bottom, (0, 0.2, 0.8, 0.25))]
+    )
 
 
 @fixture("colour_dark_and_half", "colours whose sRGB and linear values differ most, next to black and white")
 def colour_dark_and_half():
     box = cq.Solid.makeBox(10, 10, 10)
     levels = [0.0, 0.003, 0.02, 0.2, 0.5, 1.0]
-    return coloured_document("colour_dark_and_half", box, None, [(f, (v, v, v, 1)) for f, v in zip(box.Faces(), levels)])
+    return coloured_document(
+        "colour_dark_and_half", box, None, [(f, (v, v, v, 1)) for f, v in zip(box.Faces(), levels)]
+    )
 
 
 @fixture("colour_on_sheet", "a coloured sheet body with a face of another colour")

@@ -64,7 +64,11 @@ def sheet_single_face():
     return cq.Face.makeFromWires(outer, holes)
 
 
-@fixture("sheet_cylinder", "a tube without thickness: a closed surface with two free circles", closed_form={"area_mm2": 2 * pi * 5 * 12})
+@fixture(
+    "sheet_cylinder",
+    "a tube without thickness: a closed surface with two free circles",
+    closed_form={"area_mm2": 2 * pi * 5 * 12},
+)
 def sheet_cylinder():
     return [f for f in cq.Solid.makeCylinder(5, 12).Faces() if f.geomType() == "CYLINDER"][0]
 
@@ -94,7 +98,9 @@ def shell_t_junction():
     return cq.Shape.cast(sewing.SewedShape())
 
 
-@fixture("solid_inside_out", "a box whose faces point inward, as some writers leave it", closed_form={"area_mm2": 2200.0})
+@fixture(
+    "solid_inside_out", "a box whose faces point inward, as some writers leave it", closed_form={"area_mm2": 2200.0}
+)
 def solid_inside_out():
     shell = cq.Workplane().box(30, 20, 10).shells().val().wrapped.Reversed()
     return cq.Shape.cast(BRepBuilderAPI_MakeSolid(TopoDS.Shell_s(shell)).Solid())

@@ -20,7 +20,12 @@ def flange() -> cq.Workplane:
 
 for _name, _unit in {"inch": "INCH", "metre": "M", "centimetre": "CM", "foot": "FT"}.items():
 
-    @fixture(f"unit_{_name}", f"a flange in a file whose unit is the {_name}", step=StepOptions(unit=_unit), meshes=_name == "inch")
+    @fixture(
+        f"unit_{_name}",
+        f"a flange in a file whose unit is the {_name}",
+        step=StepOptions(unit=_unit),
+        meshes=_name == "inch",
+    )
     def in_unit():
         return flange()
 
@@ -34,12 +39,15 @@ for _schema in ("AP203", "AP242"):
     @fixture(
         f"schema_{_schema.lower()}_assembly",
         f"a coloured assembly in {_schema}, in inches",
-        step=StepOptions(schema=_schema, unit="INCH"), meshes=_schema == "AP242",
+        step=StepOptions(schema=_schema, unit="INCH"),
+        meshes=_schema == "AP242",
     )
     def assembly_in_schema():
         tree = cq.Assembly(name="unit")
         tree.add(flange(), name="flange", color=cq.Color(0.1, 0.5, 0.3))
-        tree.add(flange(), name="counterpart", color=cq.Color(0.7, 0.5, 0.3), loc=cq.Location((0, 0, -3), (1, 0, 0), 180))
+        tree.add(
+            flange(), name="counterpart", color=cq.Color(0.7, 0.5, 0.3), loc=cq.Location((0, 0, -3), (1, 0, 0), 180)
+        )
         return tree
 
 
@@ -49,7 +57,8 @@ BARE = StepOptions(pcurves=False)
 @fixture(
     "bare_cylinder",
     "a cylinder without curves in parameters: the seam is a plain line used twice",
-    step=BARE, meshes=False,
+    step=BARE,
+    meshes=False,
     closed_form={"volume_mm3": 3000 * pi},
 )
 def bare_cylinder():
@@ -61,7 +70,13 @@ def bare_cone_with_apex():
     return cq.Solid.makeCone(10, 0, 25)
 
 
-@fixture("bare_sphere", "a whole sphere without curves in parameters", step=BARE, meshes=False, closed_form={"area_mm2": 400 * pi})
+@fixture(
+    "bare_sphere",
+    "a whole sphere without curves in parameters",
+    step=BARE,
+    meshes=False,
+    closed_form={"area_mm2": 400 * pi},
+)
 def bare_sphere():
     return cq.Workplane().sphere(10)
 
@@ -71,7 +86,9 @@ def bare_torus():
     return cq.Solid.makeTorus(20, 5)
 
 
-@fixture("bare_cylinder_with_hole_across_seam", "a hole in a seam, without curves in parameters", step=BARE, meshes=False)
+@fixture(
+    "bare_cylinder_with_hole_across_seam", "a hole in a seam, without curves in parameters", step=BARE, meshes=False
+)
 def bare_cylinder_with_hole_across_seam():
     return cylinder_with_hole_across_seam()
 
@@ -86,12 +103,16 @@ def bare_torus_with_hole():
     return torus_with_hole_on_both_seams()
 
 
-@fixture("bare_ellipsoid", "a closed B-spline with collapsed sides, without curves in parameters", step=BARE, meshes=False)
+@fixture(
+    "bare_ellipsoid", "a closed B-spline with collapsed sides, without curves in parameters", step=BARE, meshes=False
+)
 def bare_ellipsoid():
     return ellipsoid()
 
 
-@fixture("bare_spline_closed_extruded", "a closed extruded spline without curves in parameters", step=BARE, meshes=False)
+@fixture(
+    "bare_spline_closed_extruded", "a closed extruded spline without curves in parameters", step=BARE, meshes=False
+)
 def bare_spline_closed_extruded():
     return spline_closed_extruded()
 

@@ -1,6 +1,6 @@
 """Holes in curved faces, and loops that meet seams and poles."""
 
-from math import pi, sqrt
+from math import pi
 
 import cadquery as cq
 
@@ -154,7 +154,11 @@ def ring():
     return cq.Workplane().circle(10).circle(6).extrude(3)
 
 
-@fixture("sphere_in_plate", "a ball seat: half a sphere as a pocket", closed_form={"volume_mm3": 40 * 40 * 20 - 2000 * pi / 3})
+@fixture(
+    "sphere_in_plate",
+    "a ball seat: half a sphere as a pocket",
+    closed_form={"volume_mm3": 40 * 40 * 20 - 2000 * pi / 3},
+)
 def sphere_in_plate():
     return cq.Workplane().box(40, 40, 20).translate((0, 0, -10)).cut(cq.Workplane().sphere(10))
 

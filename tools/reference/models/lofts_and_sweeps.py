@@ -24,7 +24,10 @@ def loft_smooth():
 @fixture("loft_to_point", "a loft that ends in a point")
 def loft_to_point():
     return cq.Solid.makeLoft(
-        [cq.Workplane("XY", origin=(0, 0, 0)).rect(20, 12).wires().val(), cq.Workplane("XY", origin=(0, 0, 20)).rect(2, 1).wires().val()],
+        [
+            cq.Workplane("XY", origin=(0, 0, 0)).rect(20, 12).wires().val(),
+            cq.Workplane("XY", origin=(0, 0, 20)).rect(2, 1).wires().val(),
+        ],
         True,
     )
 

@@ -3,7 +3,7 @@
 from math import pi, sqrt
 
 import cadquery as cq
-from OCP.BRepPrimAPI import BRepPrimAPI_MakeCone, BRepPrimAPI_MakeSphere, BRepPrimAPI_MakeTorus
+from OCP.BRepPrimAPI import BRepPrimAPI_MakeSphere, BRepPrimAPI_MakeTorus
 
 from catalogue import fixture
 
@@ -156,7 +156,9 @@ def torus():
     return cq.Solid.makeTorus(20, 5)
 
 
-@fixture("torus_segment", "a torus over 130 degrees round its axis", closed_form={"volume_mm3": 1000 * pi * pi * 130 / 360})
+@fixture(
+    "torus_segment", "a torus over 130 degrees round its axis", closed_form={"volume_mm3": 1000 * pi * pi * 130 / 360}
+)
 def torus_segment():
     return cq.Shape.cast(BRepPrimAPI_MakeTorus(20.0, 5.0, 130 * pi / 180).Shape())
 

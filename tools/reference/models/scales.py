@@ -24,7 +24,12 @@ def thin_face():
     closed_form={"volume_mm3": 6000 - 20 * 1e-6},
 )
 def tiny_faces():
-    return cq.Workplane("XZ").polyline([(0, 0), (30, 0), (30, 9.999), (29.999, 9.999), (29.999, 10), (0, 10)]).close().extrude(20)
+    return (
+        cq.Workplane("XZ")
+        .polyline([(0, 0), (30, 0), (30, 9.999), (29.999, 9.999), (29.999, 10), (0, 10)])
+        .close()
+        .extrude(20)
+    )
 
 
 @fixture("tiny_hole", "a hole of 0.01 mm in a plate of 100 mm")

@@ -124,7 +124,10 @@ def bspline_creased():
 @fixture("bspline_periodic", "a tube over a periodic B-spline: closed in u without a double row of poles")
 def bspline_periodic():
     points = [
-        [((8 + 2 * cos(4 * pi * i / 8)) * cos(2 * pi * i / 8), (8 - sin(j)) * sin(2 * pi * i / 8), 5.0 * j) for j in range(6)]
+        [
+            ((8 + 2 * cos(4 * pi * i / 8)) * cos(2 * pi * i / 8), (8 - sin(j)) * sin(2 * pi * i / 8), 5.0 * j)
+            for j in range(6)
+        ]
         for i in range(8)
     ]
     surface = Geom_BSplineSurface(
@@ -218,7 +221,14 @@ def spline_closed_extruded():
 
 @fixture("spline_revolved", "a surface of revolution over a spline that keeps off the axis")
 def spline_revolved():
-    wire = cq.Workplane("XZ").moveTo(6, 0).spline([(10, 8), (7, 16), (11, 24)], includeCurrent=True).lineTo(0, 24).lineTo(0, 0).close()
+    wire = (
+        cq.Workplane("XZ")
+        .moveTo(6, 0)
+        .spline([(10, 8), (7, 16), (11, 24)], includeCurrent=True)
+        .lineTo(0, 24)
+        .lineTo(0, 0)
+        .close()
+    )
     return wire.revolve(360, (0, 0, 0), (0, 1, 0))
 
 
@@ -230,11 +240,23 @@ def spline_revolved_to_axis():
 
 @fixture("spline_revolved_partly", "a surface of revolution over a spline, 100 degrees")
 def spline_revolved_partly():
-    wire = cq.Workplane("XZ").moveTo(6, 0).spline([(10, 8), (7, 16), (11, 24)], includeCurrent=True).lineTo(3, 24).lineTo(3, 0).close()
+    wire = (
+        cq.Workplane("XZ")
+        .moveTo(6, 0)
+        .spline([(10, 8), (7, 16), (11, 24)], includeCurrent=True)
+        .lineTo(3, 24)
+        .lineTo(3, 0)
+        .close()
+    )
     return wire.revolve(100, (0, 0, 0), (0, 1, 0))
 
 
-@fixture("ellipse_revolved", "an oblate spheroid over 300 degrees: a revolved half ellipse", closed_form={"volume_mm3": 4 / 3 * pi * 144 * 5 * 5 / 6}, reads_back=False)
+@fixture(
+    "ellipse_revolved",
+    "an oblate spheroid over 300 degrees: a revolved half ellipse",
+    closed_form={"volume_mm3": 4 / 3 * pi * 144 * 5 * 5 / 6},
+    reads_back=False,
+)
 def ellipse_revolved():
     edge = cq.Edge.makeEllipse(12, 5, dir=cq.Vector(0, -1, 0), xdir=cq.Vector(1, 0, 0), angle1=-90, angle2=90)
     wire = cq.Wire.assembleEdges([edge, cq.Edge.makeLine(edge.endPoint(), edge.startPoint())])
@@ -304,8 +326,6 @@ def spline_edge_on_plane():
     for i, degree in enumerate(range(2, 7)):
         start, end = corners[i], corners[(i + 1) % 5]
         side = (end - start).cross(cq.Vector(0, 0, 1)).normalized()
-        inner = [
-            start + (end - start) * (k / degree) + side * (3.0 if k % 2 else -1.5) for k in range(1, degree)
-        ]
+        inner = [start + (end - start) * (k / degree) + side * (3.0 if k % 2 else -1.5) for k in range(1, degree)]
         edges.append(cq.Edge.makeBezier([start, *inner, end]))
     return cq.Solid.extrudeLinear(cq.Wire.assembleEdges(edges), [], cq.Vector(0, 0, 5))
