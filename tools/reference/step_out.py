@@ -35,7 +35,9 @@ def write_step(document: TDocStd_Document, path: Path, options: StepOptions) -> 
 
 
 def settle_header(path: Path) -> None:
-    """Replaces what changes from run to run: the time stamp, and the path in the name."""
+    """Replaces what changes from run to run: its time stamp, and AP203's dates."""
     text = path.read_bytes()
     text = re.sub(rb"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(Z|[+-]\d\d:\d\d)?'", b"'2000-01-01T00:00:00'", text, count=1)
+    text = re.sub(rb"CALENDAR_DATE\([\d,]*\)", b"CALENDAR_DATE(2000,1,1)", text)
+    text = re.sub(rb"LOCAL_TIME\(\d+,\d+,", b"LOCAL_TIME(0,0,", text)
     path.write_bytes(text)
