@@ -1,5 +1,7 @@
 //! Triangles per second from meshes to bytes: one torus of half a million vertices, in four faces.
 
+#![allow(missing_docs, reason = "criterion's macros make public functions without documentation")]
+
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::io::sink;

@@ -68,7 +68,7 @@ fn normals_are_unit_and_split_at_sharp_edges() {
 fn what_has_no_colour_is_no_metal() {
     let document = written(&single(cube("cube", DVec3::ZERO, 10.0)), &plain());
     assert!(primitives(&document)[0]["material"].is_u64());
-    let [material] = &document.all("materials")[..] else { panic!("one material") };
+    let [material] = document.all("materials") else { panic!("one material") };
     assert_eq!(material["pbrMetallicRoughness"]["metallicFactor"], 0.0);
 }
 
