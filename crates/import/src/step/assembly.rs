@@ -171,8 +171,8 @@ impl<'t> TreeBuilder<'t> {
     }
 
     fn add_node(&mut self, parent: Option<usize>, link: Link) -> usize {
-        let (name, id) = self.names(link.named);
-        let part = self.part(&link);
+        let (name, id) = self.names(link.named, parent);
+        let part = self.part(&link, &name, &id);
         let look = link.styled.iter().fold(Look::default(), |look, &index| look.over(self.looks.of(index)));
         let index = self.tree.nodes.len();
         self.tree.nodes.push(Node {
@@ -194,8 +194,8 @@ impl<'t> TreeBuilder<'t> {
         index
     }
 
-    /// Name and id of a shape.
-    fn names(&self, shape: Shape) -> (String, String) {
+    /// Name and id of a shape; a representation without a name has those of what it stands in.
+    fn names(&self, shape: Shape, parent: Option<usize>) -> (String, String) {
         let product = match shape {
             Shape::Product(index) => self.products.get(index),
             Shape::Representation(_) => None,
@@ -205,18 +205,22 @@ impl<'t> TreeBuilder<'t> {
         }
         let name = self.representations.get(shape.entity()).map(|held| held.name.clone()).unwrap_or_default();
         let id = self.table.entity(shape.entity()).to_string();
-        (if name.trim().is_empty() { id.clone() } else { name }, id)
+        match parent {
+            _ if !name.trim().is_empty() => (name, id),
+            Some(parent) => (self.tree.nodes[parent].name.clone(), self.tree.nodes[parent].id.clone()),
+            None => (id.clone(), id),
+        }
     }
 
     /// The part with the shape's own geometry; planned when it is met first.
-    fn part(&mut self, link: &Link) -> Option<usize> {
+    fn part(&mut self, link: &Link, name: &str, id: &str) -> Option<usize> {
         if let Some(&part) = self.part_of.get(&link.shape) {
             return part;
         }
         let has_geometry = self.links.has_geometry(link.shape);
         let part = has_geometry.then_some(self.tree.plans.len());
         if has_geometry {
-            let (name, id) = self.names(link.named);
+            let (name, id) = (name.to_owned(), id.to_owned());
             let representations = self.links.representations_of(link.shape).to_vec();
             let entity = link.shape.entity();
             self.tree.plans.push(PartPlan { entity, name, id, representations, lone_items: Vec::new() });

@@ -71,8 +71,8 @@ impl<'t> Attributes<'t> {
 
     /// A fault of this entity.
     pub fn fault(&self, message: impl AsRef<str>) -> Fault {
-        let instance = self.table.instance(self.index);
-        Fault::new(instance.id(), format!("{}: {}", instance.keyword(), message.as_ref()))
+        let name = self.table.type_name(self.index);
+        Fault::new(self.table.id(self.index), format!("{name}: {}", message.as_ref()))
     }
 
     /// A reference to an entity that exists.

@@ -71,13 +71,14 @@ pub(crate) fn import(exchange: &Exchange) -> Result<Model, ImportError> {
     };
     model.diagnostics.extend(exchange.errors().iter().map(syntax_diagnostic));
     model.diagnostics.append(&mut file.unit_diagnostics());
+    model.diagnostics.extend(file.products.diagnostics.iter().cloned());
     model.diagnostics.append(&mut tree.diagnostics);
     for (part, mut diagnostics) in parts {
         model.parts.push(part);
         model.diagnostics.append(&mut diagnostics);
     }
-    if model.parts.is_empty() {
-        return Err(ImportError::Nothing(nothing(&table)));
+    if model.parts.iter().all(|part| part.faces.is_empty() && part.curves.is_empty()) {
+        return Err(ImportError::Nothing(nothing(&table, &model.diagnostics)));
     }
     Ok(model)
 }
@@ -87,11 +88,16 @@ fn syntax_diagnostic(error: &trimloop_part21::SyntaxError) -> Diagnostic {
     Diagnostic::new(Severity::Error, "syntax", entity, error.to_string())
 }
 
-fn nothing(table: &Table<'_>) -> String {
-    match table.len() {
+/// Why there is nothing, with the first error as a hint.
+fn nothing(table: &Table<'_>, diagnostics: &Diagnostics) -> String {
+    let mut text = match table.len() {
         0 => "the file holds no entities".to_owned(),
         count => format!("none of the file's {count} entities is geometry that can be shown"),
+    };
+    if let Some(first) = diagnostics.iter().find(|diagnostic| diagnostic.severity == Severity::Error) {
+        text += &format!(" ({})", first.message);
     }
+    text
 }
 
 /// What is known of the file before its parts are read.
@@ -114,9 +120,9 @@ impl<'t> File<'t> {
             table,
             budget: Budget::for_entities(table.len()),
             units: UnitTable::new(table),
+            looks: Looks::new(table, &products),
             products,
             representations,
-            looks: Looks::new(table),
             layers: Layers::new(table),
             annotations: Annotations::new(table),
         }

@@ -1,6 +1,7 @@
 //! Products and their uses in each other.
 
 use rustc_hash::{FxHashMap, FxHashSet};
+use trimloop_brep::{Diagnostic, Diagnostics, Severity};
 
 use super::keyword::Kind;
 use super::representation::Representations;
@@ -40,6 +41,9 @@ pub(crate) struct Products {
     in_order: Vec<usize>,
     owner_of: FxHashMap<usize, usize>,
     used: FxHashSet<usize>,
+    use_of: FxHashMap<usize, usize>,
+    /// What was wrong with them.
+    pub diagnostics: Diagnostics,
 }
 
 impl Products {
@@ -48,8 +52,14 @@ impl Products {
         let kinds = [Kind::ProductDefinition, Kind::ProductDefinitionWithAssociatedDocuments];
         let in_order: Vec<_> = table.of(&kinds).collect();
         let by_index = in_order.iter().map(|&index| (index, names(table, index))).collect();
-        let mut products =
-            Self { by_index, in_order, owner_of: FxHashMap::default(), used: FxHashSet::default() };
+        let mut products = Self {
+            by_index,
+            in_order,
+            owner_of: FxHashMap::default(),
+            used: FxHashSet::default(),
+            use_of: FxHashMap::default(),
+            diagnostics: Vec::new(),
+        };
         let definitions = definitions(table);
         products.add_shapes(table, representations, &definitions);
         products.add_uses(table, &definitions, representations);
@@ -71,6 +81,11 @@ impl Products {
         self.owner_of.get(&representation).copied()
     }
 
+    /// The use of a product that a representation stands for: styles for that use alone name such a one.
+    pub fn use_of(&self, representation: usize) -> Option<usize> {
+        self.use_of.get(&representation).copied()
+    }
+
     /// Whether some other product definition uses this one.
     pub fn is_used(&self, index: usize) -> bool {
         self.used.contains(&index)
@@ -88,8 +103,13 @@ impl Products {
             let mut attributes = table.attributes(index);
             let Some(shape) = attributes.optional_reference() else { continue };
             let Some(representation) = attributes.optional_reference() else { continue };
-            let product = definitions.get(&shape).copied().filter(|owner| self.by_index.contains_key(owner));
-            let Some(product) = product else { continue };
+            let Some(&product) = definitions.get(&shape) else { continue };
+            if table.kind(product) == Kind::NextAssemblyUsageOccurrence {
+                self.use_of.insert(representation, product);
+            }
+            if !self.by_index.contains_key(&product) {
+                continue;
+            }
             if table.kind(shape) == Kind::ProductDefinitionShape
                 && representations.get(representation).is_some()
             {
@@ -126,11 +146,12 @@ impl Products {
             let mut attributes = table.attributes(index);
             let (id, name, description) = (attributes.text(), attributes.text(), attributes.text());
             let (parent, child) = (attributes.optional_reference(), attributes.optional_reference());
-            let (Some(parent), Some(child)) = (parent, child) else { continue };
-            if !self.by_index.contains_key(&child) {
+            let known = |end: Option<usize>| end.filter(|end| self.by_index.contains_key(end));
+            let (Some(parent), Some(child)) = (known(parent), known(child)) else {
+                self.diagnostics.push(dangling(table, index));
                 continue;
-            }
-            let Some(assembly) = self.by_index.get(&parent) else { continue };
+            };
+            let assembly = &self.by_index[&parent];
             // Some systems write a fixed phrase as the name; where there is a description, it is what people see.
             let shown = [description, name, id].into_iter().find(|text| !text.trim().is_empty());
             let name = shown.map(|text| text.trim().to_owned());
@@ -149,6 +170,18 @@ impl Products {
             self.used.insert(child);
         }
     }
+}
+
+/// Reports a use of a product that is not there.
+fn dangling(table: &Table<'_>, index: usize) -> Diagnostic {
+    let entity = table.entity(index);
+    let references = table.instance(index).references();
+    let missing: Vec<_> =
+        references.filter(|&id| table.find(id).is_none()).map(|id| format!("#{id}")).collect();
+    let missing = if missing.is_empty() { "one that is none".to_owned() } else { missing.join(", ") };
+    let message =
+        format!("Component {entity} is left out: it refers to a product that is missing ({missing}).");
+    Diagnostic::new(Severity::Error, "component-missing", entity, message)
 }
 
 /// What each `product_definition_shape` or other property defines.

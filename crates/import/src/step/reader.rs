@@ -66,8 +66,7 @@ impl<'t> Reader<'t> {
 
     /// A fault of an entity.
     pub fn fault(&self, index: usize, message: &str) -> Fault {
-        let instance = self.table.instance(index);
-        Fault::new(instance.id(), format!("{}: {message}", instance.keyword()))
+        Fault::new(self.table.id(index), format!("{}: {message}", self.table.type_name(index)))
     }
 
     /// A fault for an entity of an unexpected type.

@@ -211,7 +211,7 @@ impl<'t> Reader<'t> {
         }
         let largest = weights.iter().copied().fold(0.0, f64::max);
         if largest <= 0.0 || weights.iter().any(|&weight| weight < 0.0) {
-            return Err(self.fault(index, "has negative weights"));
+            return Err(self.fault(index, "its weights are not positive"));
         }
         if weights.contains(&0.0) {
             let message = format!("#{} has weights of zero; they were made tiny.", self.table.id(index));

@@ -6,6 +6,7 @@ use trimloop_brep::Rgba;
 use super::body::is_face;
 use super::keyword::Kind;
 use super::look::Look;
+use super::product::Products;
 use super::table::Table;
 
 /// The looks that the file gives to single entities.
@@ -16,8 +17,8 @@ pub(crate) struct Looks {
 
 impl Looks {
     /// Reads every style; over-riding ones stand over those they over-ride.
-    pub fn new(table: &Table<'_>) -> Self {
-        let mut styles = Styles { table, known: FxHashMap::default() };
+    pub fn new(table: &Table<'_>, products: &Products) -> Self {
+        let mut styles = Styles { table, products, known: FxHashMap::default() };
         let mut looks = Self::default();
         for index in table.of(&[Kind::StyledItem]) {
             looks.add(&mut styles, index);
@@ -46,7 +47,7 @@ impl Looks {
                 return;
             }
             attributes.skip(1);
-            attributes.found_references().into_iter().find(|&context| is_use(table.kind(context)))
+            attributes.found_references().into_iter().find_map(|context| styles.usage(context))
         } else {
             None
         };
@@ -91,18 +92,22 @@ pub(crate) fn styled_item_target(table: &Table<'_>, index: usize) -> usize {
     }
 }
 
-/// Whether an entity stands for one use of a product.
-fn is_use(kind: Kind) -> bool {
-    matches!(kind, Kind::ContextDependentShapeRepresentation | Kind::NextAssemblyUsageOccurrence)
-}
-
 /// Reads style assignments, each once.
 struct Styles<'t> {
     table: &'t Table<'t>,
+    products: &'t Products,
     known: FxHashMap<usize, (Look, Option<usize>)>,
 }
 
 impl Styles<'_> {
+    /// The one use of a product that the context of a style stands for, if it does.
+    fn usage(&self, context: usize) -> Option<usize> {
+        match self.table.kind(context) {
+            Kind::ContextDependentShapeRepresentation | Kind::NextAssemblyUsageOccurrence => Some(context),
+            _ => self.products.use_of(context),
+        }
+    }
+
     /// A `presentation_style_assignment`, and the use of a product that it is limited to.
     fn assignment(&mut self, index: usize) -> (Look, Option<usize>) {
         if let Some(&known) = self.known.get(&index) {
@@ -119,7 +124,7 @@ impl Styles<'_> {
                 self.add_style(style, &mut look);
             }
             if self.table.kind(index) == Kind::PresentationStyleByContext {
-                context = attributes.optional_reference().filter(|&context| is_use(self.table.kind(context)));
+                context = attributes.optional_reference().and_then(|context| self.usage(context));
             }
         } else {
             self.add_style(index, &mut look);

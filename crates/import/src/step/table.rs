@@ -57,6 +57,15 @@ impl<'a> Table<'a> {
         EntityRef::Step(self.id(index))
     }
 
+    /// What the entity's type is called; for a complex instance the most meaningful of its parts.
+    pub fn type_name(&self, index: usize) -> &'a str {
+        let instance = self.exchange.at(index);
+        match self.kinds[index] {
+            kind if instance.is_complex() && kind != Kind::Other => kind.keyword(),
+            _ => instance.keyword(),
+        }
+    }
+
     /// The record.
     pub fn instance(&self, index: usize) -> Instance<'a> {
         self.exchange.at(index)

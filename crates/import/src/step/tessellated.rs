@@ -98,8 +98,8 @@ impl<'t> PartBuilder<'t> {
             | Kind::ComplexTriangulatedFace
             | Kind::TriangulatedSurfaceSet
             | Kind::ComplexTriangulatedSurfaceSet => {
-                let face = self.facet_face(index, look, context, map);
-                faces.push(ShellFace { face, reversed: false });
+                let made = self.facet_faces(index, look, context, map);
+                faces.extend(made.into_iter().map(|face| ShellFace { face, reversed: false }));
             }
             Kind::TessellatedCurveSet if !look.hidden => {
                 if let Err(fault) = self.line_strips(index, look, context, map) {
@@ -152,22 +152,32 @@ impl<'t> PartBuilder<'t> {
         map
     }
 
-    fn facet_face(&mut self, index: usize, look: Look, context: Context, map: DAffine3) -> u32 {
+    /// The face of a tessellated face; where some of its triangles cannot be read, one more that stands for those.
+    fn facet_faces(&mut self, index: usize, look: Look, context: Context, map: DAffine3) -> Vec<u32> {
         let name = self.table.attributes(index).text().into_owned();
-        let surface = self.facets(index, context, map).map(FaceSurface::Facets);
-        self.seeds.faces.push(FaceSeed {
+        let (surface, fault) = match self.facets(index, context, map) {
+            Ok((facets, None)) => (Ok(FaceSurface::Facets(facets)), None),
+            Ok((facets, Some(fault))) if facets.triangles.is_empty() => (Err(fault), None),
+            Ok((facets, fault)) => (Ok(FaceSurface::Facets(facets)), fault),
+            Err(fault) => (Err(fault), None),
+        };
+        let seed = |surface| FaceSeed {
             index,
-            name,
+            name: name.clone(),
             surface,
             same_sense: true,
             loops: Vec::new(),
             color: look.surface,
             hidden: look.hidden,
-        });
-        (self.seeds.faces.len() - 1) as u32
+        };
+        let first = self.seeds.faces.len() as u32;
+        self.seeds.faces.push(seed(surface));
+        self.seeds.faces.extend(fault.map(|fault| seed(Err(fault))));
+        (first..self.seeds.faces.len() as u32).collect()
     }
 
-    fn facets(&mut self, index: usize, context: Context, map: DAffine3) -> Outcome<Facets> {
+    /// The triangles, and what was wrong with those that are missing.
+    fn facets(&mut self, index: usize, context: Context, map: DAffine3) -> Outcome<(Facets, Option<Fault>)> {
         let kind = self.table.kind(index);
         let mut attributes = self.table.attributes(index).after(1);
         let points = self.coordinates(attributes.reference("coordinates")?, context, map)?;
@@ -185,9 +195,22 @@ impl<'t> PartBuilder<'t> {
             triangles.extend(corner_runs(&mut attributes)?.iter().flat_map(|f| fan(f)));
             triangles
         };
+        let mut corners = Corners { points, point_of, normals, map };
+        if !corners.normals_fit() {
+            corners.normals.clear();
+            let entity = self.table.entity(index);
+            let message = format!("The normals of {entity} do not fit its points; they were left out.");
+            self.seeds.diagnostics.push(Diagnostic::new(
+                Severity::Warning,
+                "normals-left-out",
+                entity,
+                message,
+            ));
+        }
+        let facets = corners.facets(&triangles);
+        let complete = corners.triangles_fit(&triangles);
         let fault = || attributes.fault("a triangle refers to a point that does not exist");
-        let corners = Corners { points, point_of, normals, map };
-        corners.facets(&triangles).ok_or_else(fault)
+        Ok((facets, (!complete).then(fault)))
     }
 
     /// Where the points of a `coordinates_list` lie among the part's own.
@@ -223,31 +246,34 @@ struct Corners {
 }
 
 impl Corners {
-    /// Triangles over the part's points; `None` when one refers to nothing. Corners count from 1.
-    fn facets(&self, triangles: &[[usize; 3]]) -> Option<Facets> {
+    /// Whether there is one normal for all points or one for each, or none.
+    fn normals_fit(&self) -> bool {
+        let points = if self.point_of.is_empty() { self.points.len() } else { self.point_of.len() };
+        self.normals.len() <= 1 || self.normals.len() >= points
+    }
+
+    /// Whether every triangle's corners exist. Corners count from 1.
+    fn triangles_fit(&self, triangles: &[[usize; 3]]) -> bool {
+        triangles.iter().flatten().all(|&corner| self.point(corner).is_some())
+    }
+
+    /// Triangles over the part's points, without those that refer to nothing or have two corners in one.
+    fn facets(&self, triangles: &[[usize; 3]]) -> Facets {
         let mut facets = Facets::default();
-        let with_normals = !self.normals.is_empty();
         for corners in triangles {
-            let mut points = [0; 3];
-            let mut normals = [DVec3::ZERO; 3];
-            for (i, &corner) in corners.iter().enumerate() {
-                points[i] = self.point(corner)?;
-                if with_normals {
-                    normals[i] = self.normal(corner)?;
-                }
-            }
-            if points[0] == points[1] || points[1] == points[2] || points[2] == points[0] {
+            let [Some(a), Some(b), Some(c)] = corners.map(|corner| self.point(corner)) else { continue };
+            if a == b || b == c || c == a {
                 continue;
             }
-            facets.triangles.push(points);
-            if with_normals {
-                facets.normals.push(normals);
+            facets.triangles.push([a, b, c]);
+            if !self.normals.is_empty() {
+                facets.normals.push(corners.map(|corner| self.normal(corner)));
             }
         }
         if facets.normals.iter().flatten().any(|&normal| normal == DVec3::ZERO) {
             facets.normals.clear();
         }
-        Some(facets)
+        facets
     }
 
     fn point(&self, corner: usize) -> Option<u32> {
@@ -259,14 +285,11 @@ impl Corners {
         self.points.get(local).copied()
     }
 
-    /// The normal of a corner: one for all, or one for each.
-    fn normal(&self, corner: usize) -> Option<DVec3> {
-        let normal = if self.normals.len() == 1 {
-            self.normals[0]
-        } else {
-            *self.normals.get(corner.checked_sub(1)?)?
-        };
-        Some(self.map.transform_vector3(normal).normalize_or_zero())
+    /// The normal of a corner: one for all, or one for each; zero where it is unusable.
+    fn normal(&self, corner: usize) -> DVec3 {
+        let place = if self.normals.len() == 1 { 0 } else { corner.saturating_sub(1) };
+        let normal = self.normals.get(place).copied().unwrap_or_default();
+        self.map.transform_vector3(normal).normalize_or_zero()
     }
 }
 
