@@ -73,9 +73,13 @@ def volume(shape: TopoDS_Shape) -> float | None:
 
 
 def bounding_box(shape: TopoDS_Shape) -> list[list[float]] | None:
-    """Box around the exact surfaces and curves; None for an empty shape. Take it before any tessellation."""
+    """Box around the faces, or around the curves where there is no face; None for an empty shape.
+
+    Take it before any tessellation.
+    """
     box = Bnd_Box()
-    BRepBndLib.AddOptimal_s(shape, box, False, False)
+    for part in faces(shape) or [shape]:
+        BRepBndLib.AddOptimal_s(part, box, False, False)
     if box.IsVoid():
         return None
     box.SetGap(0.0)

@@ -454,11 +454,11 @@ def surface_rectangular_composite():
             model.plane(origin) if not turned else model.plane((x + 10.0, y, 0.0), (0.0, 0.0, -1.0), (-1.0, 0.0, 0.0))
         )
         basis = model.add("RECTANGULAR_TRIMMED_SURFACE", "", plane, 0.0, 10.0, 0.0, 8.0, TRUE, TRUE)
+        model.faces.append(FaceFigures(basis, "plane", 80.0, (x + 5.0, y + 4.0, 0.0)))
         continuous = Enum("CONTINUOUS")
         return model.add("SURFACE_PATCH", basis, continuous, continuous, FALSE if turned else TRUE, TRUE)
 
     rows = [[patch(0.0, 0.0, False), patch(0.0, 8.0, False)], [patch(10.0, 0.0, True), patch(10.0, 8.0, False)]]
     surface = model.add("RECTANGULAR_COMPOSITE_SURFACE", "", rows)
-    model.faces.append(FaceFigures(surface, "other", 320.0, (10.0, 8.0, 0.0)))
     bounded_product(model, "surface_rectangular_composite", [surface])
     return model, model.reference(bbox=[[0.0] * 3, [20.0, 16.0, 0.0]], closed=False)

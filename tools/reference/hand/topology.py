@@ -170,7 +170,7 @@ def geometric_set():
     arc = model.add("CIRCLE", "", model.axis2((20.0, 0.0, 0.0)), 3.0)
     items = model.add("GEOMETRIC_SET", "", [model.point((5.0, 5.0, 5.0)), arc, patch])
     model.product("geometric_set", [items], representation="GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION")
-    reference = model.reference(bbox=[[0.0, -3.0, 0.0], [23.0, 7.0, 0.0]], closed=False)
+    reference = model.reference(bbox=[[0.0, 0.0, 0.0], [12.0, 7.0, 0.0]], closed=False)
     return model, {**reference, "free_curves": {"count": 1, "length_mm": 6 * pi}}
 
 
