@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
+
 from OCP.Bnd import Bnd_Box
 from OCP.BRep import BRep_Tool
 from OCP.BRepAdaptor import BRepAdaptor_Surface
 from OCP.BRepBndLib import BRepBndLib
+from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
+from OCP.BRepMesh import BRepMesh_IncrementalMesh
 from OCP.GProp import GProp_GProps
 from OCP.TopAbs import (
     TopAbs_EDGE,
@@ -17,9 +21,15 @@ from OCP.TopAbs import (
     TopAbs_VERTEX,
 )
 from OCP.TopExp import TopExp_Explorer
+from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS, TopoDS_Shape
 
 from integral import integrate
+
+#: Surfaces whose boxes OpenCASCADE gets right.
+ELEMENTARY = ("plane", "cylinder", "cone", "sphere", "torus", "facets")
+#: A box that is larger than a fine mesh's by more than this part of its size is not believed.
+BOX_DOUBT = 1e-3
 
 #: What kinds of surface are called in the references.
 SURFACE_NAMES = {
@@ -77,14 +87,38 @@ def bounding_box(shape: TopoDS_Shape) -> list[list[float]] | None:
 
     Take it before any tessellation.
     """
+    corners = [c for part in faces(shape) or [shape] if (c := part_box(part)) is not None]
+    if not corners:
+        return None
+    return [[min(c[0][k] for c in corners) for k in range(3)], [max(c[1][k] for c in corners) for k in range(3)]]
+
+
+def part_box(part: TopoDS_Shape) -> list[list[float]] | None:
+    """Box of a face or of curves."""
     box = Bnd_Box()
-    for part in faces(shape) or [shape]:
-        BRepBndLib.AddOptimal_s(part, box, False, False)
+    BRepBndLib.AddOptimal_s(part, box, False, False)
     if box.IsVoid():
         return None
+    if part.ShapeType() == TopAbs_FACE and surface_kind(part) not in ELEMENTARY:
+        meshed = meshed_box(part, math.sqrt(box.SquareExtent()))
+        # On some trimmed splines the box above is that of the control points.
+        if math.sqrt(meshed.SquareExtent()) < (1 - BOX_DOUBT) * math.sqrt(box.SquareExtent()):
+            box = meshed
     box.SetGap(0.0)
     x0, y0, z0, x1, y1, z1 = box.Get()
     return [[x0, y0, z0], [x1, y1, z1]]
+
+
+def meshed_box(face: TopoDS_Shape, size: float) -> Bnd_Box:
+    """Box of a fine tessellation of a copy of the face."""
+    copy = BRepBuilderAPI_Copy(face, True, False).Shape()
+    BRepMesh_IncrementalMesh(copy, 1e-5 * size, False, 0.1, False)
+    location = TopLoc_Location()
+    mesh = BRep_Tool.Triangulation_s(TopoDS.Face_s(copy), location)
+    box = Bnd_Box()
+    for k in range(1, mesh.NbNodes() + 1):
+        box.Add(mesh.Node(k).Transformed(location.Transformation()))
+    return box
 
 
 def is_closed(shape: TopoDS_Shape) -> bool:

@@ -13,8 +13,8 @@ use crate::quantity;
 #[derive(Debug, Parser)]
 #[command(name = "trimloop", version, max_term_width = 100)]
 #[command(
-    after_help = "Exit codes: 0 all well; 1 written, but a face was lost (or approximated, with --strict); \
-2 nothing usable.\n`trimloop COMMAND --help` explains a command."
+    after_help = "Exit codes: 0 all well; 1 written, but a face was lost or part of the file is damaged (or a face only \
+approximated, with --strict); 2 nothing usable.\n`trimloop COMMAND --help` explains a command."
 )]
 pub struct Arguments {
     /// What to do.
@@ -54,7 +54,7 @@ Examples:
 
 Exit codes:
   0  all well
-  1  written, but a face was lost (with --strict also: only approximated)
+  1  written, but a face was lost or part of the file is damaged (with --strict also: a face only approximated)
   2  nothing usable: bad usage, unreadable file, unwritable output; nothing is left behind
   130  stopped (Ctrl-C)
 With several inputs, the worst of them.";

@@ -18,7 +18,7 @@ use crate::message;
 use crate::outcome::Outcome;
 use crate::plan::{self, Job, Target};
 use crate::progress::Progress;
-use crate::report::{self, Report, Seconds};
+use crate::report::{self, DiagnosticReport, Report, Seconds};
 use crate::report_sink::ReportSink;
 use crate::summary;
 
@@ -130,7 +130,12 @@ fn refuse_nothing(report: &Report, model: &Model, meshes: &[PartMesh]) -> anyhow
 
 fn outcome(report: &Report, strict: bool) -> Outcome {
     let tally = &report.totals.tally;
-    if tally.lost > 0 || strict && tally.approximated > 0 { Outcome::Incomplete } else { Outcome::Good }
+    let is_damaged = report.diagnostics.iter().any(DiagnosticReport::is_error);
+    if tally.lost > 0 || is_damaged || strict && tally.approximated > 0 {
+        Outcome::Incomplete
+    } else {
+        Outcome::Good
+    }
 }
 
 /// Tells what a stage took.
@@ -160,10 +165,10 @@ fn start_threads(jobs: usize) -> anyhow::Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use trimloop_brep::Model;
+    use trimloop_brep::{Diagnostic, EntityRef, Model, Severity};
     use trimloop_gltf::Written;
 
-    use super::{Job, Outcome, Report, Target, outcome};
+    use super::{DiagnosticReport, Job, Outcome, Report, Target, outcome};
 
     fn report(lost: usize, approximated: usize) -> Report {
         let job = Job { input: "a.step".into(), target: Target::Glb("a.glb".into()) };
@@ -183,5 +188,17 @@ mod tests {
     fn an_approximated_face_shows_where_that_is_strict() {
         assert_eq!(outcome(&report(0, 1), false), Outcome::Good);
         assert_eq!(outcome(&report(0, 1), true), Outcome::Incomplete);
+    }
+
+    #[test]
+    fn what_could_not_be_read_shows_in_the_exit_code() {
+        for (severity, expected) in
+            [(Severity::Warning, Outcome::Good), (Severity::Error, Outcome::Incomplete)]
+        {
+            let mut report = report(0, 0);
+            let diagnostic = Diagnostic::new(severity, "syntax", EntityRef::Step(7), "Not closed.");
+            report.diagnostics.push(DiagnosticReport::of(&diagnostic));
+            assert_eq!(outcome(&report, false), expected);
+        }
     }
 }

@@ -5,7 +5,8 @@
 pub enum Outcome {
     /// All well.
     Good,
-    /// Written, but a face was lost (or, where that is asked to be strict, only approximated).
+    /// Written, but a face was lost or a part of the file could not be read (or, where that is asked to be strict, a
+    /// face was only approximated).
     Incomplete,
     /// Nothing usable: bad usage, unreadable file, unwritable output.
     Failed,

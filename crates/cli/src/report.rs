@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde::Serialize;
-use trimloop_brep::{Diagnostic, EntityRef, Face, FaceGeometry, Model, Part};
+use trimloop_brep::{Diagnostic, EntityRef, Face, FaceGeometry, Model, Part, Severity};
 use trimloop_gltf::Written;
 use trimloop_mesh::{FaceMesh, FaceStatus, PartMesh};
 
@@ -143,6 +143,11 @@ impl Report {
 }
 
 impl DiagnosticReport {
+    /// Whether something could not be read or made.
+    pub fn is_error(&self) -> bool {
+        self.severity == Severity::Error.as_str()
+    }
+
     /// The diagnostic as JSON has it.
     pub fn of(diagnostic: &Diagnostic) -> Self {
         Self {

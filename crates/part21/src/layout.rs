@@ -111,7 +111,11 @@ impl<'a> Walk<'a> {
         let statement = self.scanner.statement();
         let length = statement.end - statement.start;
         if length < SHORTEST_RECORD {
-            return self.damage(statement.start, "an instance (#number = KEYWORD(...)) is expected");
+            let message = match &self.text[statement.start..] {
+                [b'/', b'*', ..] => "a comment is not closed",
+                _ => "an instance (#number = KEYWORD(...)) is expected",
+            };
+            return self.damage(statement.start, message);
         }
         if u32::try_from(length).is_err() {
             return self.damage(statement.start, "a record is longer than 4 GiB");

@@ -46,7 +46,7 @@ fn broken_file(folder: &Path, case: &Value) -> Vec<String> {
     let words = case["words"].as_array().expect("words");
     if run.code != Some(0)
         && !words.is_empty()
-        && !words.iter().any(|w| said.contains(w.as_str().expect("a word")))
+        && !words.iter().any(|w| said.contains(&w.as_str().expect("a word").to_lowercase()))
     {
         find(format!("says {said:?}, none of {words:?}"));
     }

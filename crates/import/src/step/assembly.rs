@@ -94,9 +94,12 @@ impl<'t> TreeBuilder<'t> {
             let own = self.links.representations_of(Shape::Product(index));
             !self.products.is_used(index) && (own.is_empty() || !own.iter().all(|held| placed.contains(held)))
         };
-        let roots: Vec<_> = shaped.iter().copied().filter(is_root).collect();
-        // Where every product is used by another, the assembly contains itself: start anywhere.
-        let roots = if roots.is_empty() { shaped.first().copied().into_iter().collect() } else { roots };
+        let mut roots: Vec<_> = shaped.iter().copied().filter(is_root).collect();
+        self.add_cycles(&shaped, &mut roots);
+        if roots.is_empty() {
+            // Products that are mapped into each other only.
+            roots.extend(shaped.first());
+        }
         if !roots.is_empty() {
             return roots.into_iter().map(Shape::Product).collect();
         }
@@ -112,6 +115,32 @@ impl<'t> TreeBuilder<'t> {
             .filter(holds_something)
             .map(Shape::Representation)
             .collect()
+    }
+
+    /// Adds products that contain themselves and that no root leads to, assemblies first.
+    fn add_cycles(&self, shaped: &[usize], roots: &mut Vec<usize>) {
+        let mut reached = FxHashSet::default();
+        roots.iter().for_each(|&root| self.reach(root, &mut reached));
+        let is_assembly = |&&index: &&usize| self.products.get(index).is_some_and(|it| !it.uses.is_empty());
+        for &index in shaped.iter().filter(is_assembly) {
+            if self.products.is_used(index) && !reached.contains(&index) {
+                roots.push(index);
+                self.reach(index, &mut reached);
+            }
+        }
+        roots.sort_unstable();
+    }
+
+    /// Adds all products that a product leads to.
+    fn reach(&self, index: usize, reached: &mut FxHashSet<usize>) {
+        let mut open = vec![index];
+        while let Some(index) = open.pop() {
+            if reached.insert(index) {
+                open.extend(
+                    self.products.get(index).into_iter().flat_map(|it| &it.uses).map(|usage| usage.child),
+                );
+            }
+        }
     }
 
     fn has_shape(&self, index: usize) -> bool {

@@ -83,6 +83,14 @@ impl<'t> Attributes<'t> {
         }
     }
 
+    /// The instance name of a reference, whether it resolves or not.
+    pub fn id(&mut self, what: &str) -> Outcome<u64> {
+        match self.param() {
+            Some(Param::Reference(id)) => Ok(id),
+            _ => Err(self.fault(format!("{what} is not a reference"))),
+        }
+    }
+
     /// A reference, where one is given and resolves.
     pub fn optional_reference(&mut self) -> Option<usize> {
         match self.param()? {

@@ -99,6 +99,12 @@ fn merge_joints(
     let mut widest: f64 = 0.0;
     for coedge in coedges {
         let (from, to) = (ends(previous, edges)[1], ends(coedge, edges)[0]);
+        match (&points[from as usize], &points[to as usize]) {
+            // A vertex that is lost is where the loop goes on.
+            (Ok(_), Err(_)) => merged.merge_into(to, from),
+            (Err(_), Ok(_)) => merged.merge_into(from, to),
+            _ => {}
+        }
         let shorter = chord(previous).min(chord(coedge));
         let uncertainty_mm =
             edges[coedge.edge as usize].units.uncertainty_mm.min(MERGE_SHARE.sqrt() * shorter);
@@ -160,12 +166,18 @@ impl Merged {
     /// The one that was read first stands for both.
     fn merge(&mut self, a: VertexId, b: VertexId) {
         let (a, b) = (self.root(a), self.root(b));
-        if a == b {
+        self.merge_into(a.max(b), a.min(b));
+    }
+
+    /// `target` stands for `lost` too, if nothing else does already.
+    fn merge_into(&mut self, lost: VertexId, target: VertexId) {
+        let target = self.root(target);
+        if self.root(lost) != lost || lost == target {
             return;
         }
-        let needed = a.max(b) as usize + 1;
+        let needed = lost as usize + 1;
         self.parent.extend(self.parent.len() as VertexId..needed.max(self.parent.len()) as VertexId);
-        self.parent[a.max(b) as usize] = a.min(b);
+        self.parent[lost as usize] = target;
         self.count += 1;
     }
 }

@@ -7,7 +7,7 @@ use super::fault::{Fault, Outcome};
 use super::keyword::Kind;
 use super::look::Look;
 use super::part_builder::PartBuilder;
-use super::seeds::{EdgeCurve, EdgeSeed, FaceSeed, FaceSurface};
+use super::seeds::{EdgeCurve, EdgeSeed, FaceSeed, FaceSurface, VertexSeed};
 
 /// How many oriented entities may be wrapped around each other.
 const MAX_WRAPPING: usize = 16;
@@ -170,10 +170,32 @@ impl<'t> PartBuilder<'t> {
                 return Ok((self.edge(index, context)?, reversed));
             }
             let mut attributes = self.table.attributes(index).after(3);
-            index = attributes.reference("edge element")?;
+            let id = attributes.id("edge element")?;
             reversed ^= !attributes.flag();
+            match self.table.find(id) {
+                Some(element) => index = element,
+                None => return Ok((self.lost_edge(id, context), reversed)),
+            }
         }
         Err(self.reader(context).fault(index, "is wrapped in too many oriented edges"))
+    }
+
+    /// An edge that is missing from the file: its neighbours may tell where it was.
+    fn lost_edge(&mut self, id: u64, context: Context) -> EdgeId {
+        if let Some(&known) = self.seeds.lost_edge_of.get(&id) {
+            return known;
+        }
+        let fault = Fault::new(id, "is missing from the file");
+        let ends = [0, 1].map(|_| {
+            self.seeds.vertices.push(VertexSeed::Lost(fault.clone()));
+            (self.seeds.vertices.len() - 1) as VertexId
+        });
+        let [start, end] = ends;
+        let curve = EdgeCurve::Lost(fault);
+        let edge = EdgeSeed { index: None, start, end, curve, same_sense: true, units: context.units };
+        let edge = self.seeds.add_edge(edge);
+        self.seeds.lost_edge_of.insert(id, edge);
+        edge
     }
 
     /// The edge of an entity, made when it is new.
@@ -188,14 +210,15 @@ impl<'t> PartBuilder<'t> {
 
     fn edge_seed(&mut self, index: usize, context: Context) -> Outcome<EdgeSeed> {
         let mut attributes = self.table.attributes(index).after(1);
-        let start = attributes.reference("start vertex")?;
-        let end = attributes.reference("end vertex")?;
-        let (start, end) = (self.vertex(start, context)?, self.vertex(end, context)?);
+        let (start, end) = (attributes.id("start vertex")?, attributes.id("end vertex")?);
+        let (start, end) = (self.edge_vertex(start, context), self.edge_vertex(end, context));
         let units = context.units;
         match self.table.kind(index) {
             Kind::EdgeCurve => {
-                let curve = attributes.reference("edge geometry")?;
-                let curve = EdgeCurve::Slot(self.seeds.curve_slot(curve, units));
+                let curve = match attributes.reference("edge geometry") {
+                    Ok(curve) => EdgeCurve::Slot(self.seeds.curve_slot(curve, units)),
+                    Err(fault) => EdgeCurve::Lost(fault),
+                };
                 Ok(EdgeSeed { index: Some(index), start, end, curve, same_sense: attributes.flag(), units })
             }
             Kind::Edge => Ok(EdgeSeed {
@@ -228,6 +251,15 @@ impl<'t> PartBuilder<'t> {
         let curve = EdgeCurve::Slot(self.seeds.curve_slot(curve, context.units));
         let same_sense = attributes.flag();
         Ok(EdgeSeed { index: Some(index), start, end, curve, same_sense, units: context.units })
+    }
+
+    /// The vertex `#id` of an edge; one that is lost may be found again by the edges that meet there.
+    fn edge_vertex(&mut self, id: u64, context: Context) -> VertexId {
+        let found = match self.table.find(id) {
+            Some(index) => self.vertex(index, context),
+            None => Err(Fault::new(id, "is missing from the file")),
+        };
+        found.unwrap_or_else(|fault| self.seeds.lost_vertex(id, fault))
     }
 
     fn vertex(&mut self, index: usize, context: Context) -> Outcome<VertexId> {

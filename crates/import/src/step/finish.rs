@@ -11,6 +11,7 @@ use trimloop_geom::{Curve, Frame, Interval, Surface};
 use super::chain::mend_loops;
 use super::edge_range::edge_range;
 use super::fault::{Fault, Outcome};
+use super::find_vertices::find_vertices;
 use super::parallel::map;
 use super::pcurve_hints::hints;
 use super::reader::{Budget, Reader};
@@ -26,10 +27,11 @@ const UNREPORTED_GAP_MM: f64 = 1e-3;
 /// Reads all geometry of a part.
 pub(crate) fn finish(table: &Table<'_>, budget: &Budget, mut seeds: Seeds) -> (Part, Diagnostics) {
     let stage = Stage { table, budget };
-    let points = map(&seeds.vertices, |vertex| stage.point(vertex));
+    let mut points = map(&seeds.vertices, |vertex| stage.point(vertex));
     mend_loops(&mut seeds, &points);
     let mut diagnostics = std::mem::take(&mut seeds.diagnostics);
     let curves = collect(map(&seeds.curves, |&(index, units)| stage.curve(index, units)), &mut diagnostics);
+    find_vertices(&seeds, &mut points, &curves, &mut diagnostics);
     let surfaces = collect(
         map(&seeds.surfaces, |&(index, units, whole)| stage.surface(index, units, whole)),
         &mut diagnostics,
@@ -97,12 +99,13 @@ impl<'t> Stage<'t> {
         match seed {
             VertexSeed::Entity { index, .. } => self.table.entity(*index),
             VertexSeed::Point(_) => EntityRef::None,
+            VertexSeed::Lost(fault) => fault.entity,
         }
     }
 
     fn point(&self, seed: &VertexSeed) -> Outcome<DVec3> {
-        match *seed {
-            VertexSeed::Entity { index, units } => {
+        match seed {
+            &VertexSeed::Entity { index, units } => {
                 let reader = self.reader(units);
                 if self.table.kind(index) == super::keyword::Kind::VertexPoint {
                     let mut attributes = self.table.attributes(index).after(1);
@@ -111,7 +114,8 @@ impl<'t> Stage<'t> {
                     reader.point(index)
                 }
             }
-            VertexSeed::Point(point) => Ok(point),
+            VertexSeed::Point(point) => Ok(*point),
+            VertexSeed::Lost(fault) => Err(fault.clone()),
         }
     }
 
@@ -157,6 +161,7 @@ impl<'t> Stage<'t> {
         };
         let curve = match &seed.curve {
             EdgeCurve::Slot(slot) => curves[*slot].clone()?,
+            EdgeCurve::Lost(fault) => return Err(fault.clone()),
             EdgeCurve::Straight => {
                 let direction = if start == end { DVec3::X } else { end - start };
                 let range = Interval::new(0.0, if start == end { 0.0 } else { 1.0 });

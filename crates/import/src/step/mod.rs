@@ -11,6 +11,7 @@ mod curve;
 mod edge_range;
 mod face;
 mod fault;
+mod find_vertices;
 mod finish;
 mod keyword;
 mod layer;
@@ -88,14 +89,17 @@ fn syntax_diagnostic(error: &trimloop_part21::SyntaxError) -> Diagnostic {
     Diagnostic::new(Severity::Error, "syntax", entity, error.to_string())
 }
 
-/// Why there is nothing, with the first error as a hint.
+/// Why there is nothing, with the first and the last error as hints (a file that was cut off shows in the last).
 fn nothing(table: &Table<'_>, diagnostics: &Diagnostics) -> String {
     let mut text = match table.len() {
         0 => "the file holds no entities".to_owned(),
         count => format!("none of the file's {count} entities is geometry that can be shown"),
     };
-    if let Some(first) = diagnostics.iter().find(|diagnostic| diagnostic.severity == Severity::Error) {
-        text += &format!(" ({})", first.message);
+    let mut errors = diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
+    match (errors.next(), errors.next_back()) {
+        (Some(first), Some(last)) => text += &format!(" ({}; {})", first.message, last.message),
+        (Some(only), None) => text += &format!(" ({})", only.message),
+        (None, _) => {}
     }
     text
 }

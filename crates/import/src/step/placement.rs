@@ -24,11 +24,11 @@ impl Reader<'_> {
             return Err(self.fault(index, "has too few attributes"));
         };
         let mut attributes = self.table.attributes(index).after(first);
-        let axis1 = self.optional_direction(&mut attributes);
-        let axis2 = self.optional_direction(&mut attributes);
+        let axis1 = self.optional_direction(&mut attributes)?;
+        let axis2 = self.optional_direction(&mut attributes)?;
         let origin = self.point(attributes.reference("local origin")?)?;
         let scale = attributes.optional_real().unwrap_or(1.0);
-        let axis3 = self.optional_direction(&mut attributes);
+        let axis3 = self.optional_direction(&mut attributes)?;
         if scale <= 0.0 {
             return Err(self.fault(index, "its scale is not positive"));
         }

@@ -167,7 +167,9 @@ impl Products {
             };
             let usage = Use { index, child, name, relationship, placed_by };
             self.by_index.get_mut(&parent).expect("found above").uses.push(usage);
-            self.used.insert(child);
+            if child != parent {
+                self.used.insert(child);
+            }
         }
     }
 }

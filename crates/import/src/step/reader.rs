@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use glam::DVec3;
 use trimloop_brep::{Diagnostic, Diagnostics, Severity};
 use trimloop_geom::Frame;
+use trimloop_part21::Param;
 
 use super::attributes::Attributes;
 use super::fault::{Fault, Outcome};
@@ -120,13 +121,13 @@ impl<'t> Reader<'t> {
         match self.table.kind(index) {
             Kind::Axis2Placement3d => {
                 let origin = self.point(attributes.reference("location")?)?;
-                let z = self.optional_direction(&mut attributes);
-                let x = self.optional_direction(&mut attributes);
+                let z = self.optional_direction(&mut attributes)?;
+                let x = self.optional_direction(&mut attributes)?;
                 Ok(frame(origin, z, x))
             }
             Kind::Axis2Placement2d => {
                 let origin = self.point(attributes.reference("location")?)?;
-                let x = self.optional_direction(&mut attributes);
+                let x = self.optional_direction(&mut attributes)?;
                 Ok(frame(origin, None, x))
             }
             Kind::Axis1Placement => {
@@ -144,14 +145,22 @@ impl<'t> Reader<'t> {
             return Err(self.unexpected(index, "axis"));
         }
         let origin = self.point(attributes.reference("location")?)?;
-        let axis = self.optional_direction(&mut attributes).unwrap_or(DVec3::Z);
+        let axis = self.optional_direction(&mut attributes)?.unwrap_or(DVec3::Z);
         Ok((origin, axis.try_normalize().unwrap_or(DVec3::Z)))
     }
 
-    /// A direction that may be left out; an unreadable or zero one counts as left out.
-    pub fn optional_direction(&self, attributes: &mut Attributes<'_>) -> Option<DVec3> {
-        let index = attributes.optional_reference()?;
-        self.direction(index).ok().filter(|direction| *direction != DVec3::ZERO)
+    /// A direction that may be left out; a zero one counts as left out.
+    pub fn optional_direction(&self, attributes: &mut Attributes<'_>) -> Outcome<Option<DVec3>> {
+        match attributes.clone().param() {
+            Some(Param::Reference(_)) => {
+                let direction = self.direction(attributes.reference("direction")?)?;
+                Ok(Some(direction).filter(|direction| *direction != DVec3::ZERO))
+            }
+            _ => {
+                attributes.skip(1);
+                Ok(None)
+            }
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 use trimloop_brep::{Body, Diagnostics, EdgeId, Facets, FreeCurve, Loop, Rgba, VertexId};
 use trimloop_geom::{Curve, Interval, Surface};
 
-use super::fault::Outcome;
+use super::fault::{Fault, Outcome};
 use super::units::Units;
 
 /// Where a vertex gets its point from.
@@ -17,6 +17,8 @@ pub(crate) enum VertexSeed {
     Entity { index: usize, units: Units },
     /// Already there.
     Point(DVec3),
+    /// Not to be had.
+    Lost(Fault),
 }
 
 /// Where an edge gets its curve from.
@@ -28,6 +30,8 @@ pub(crate) enum EdgeCurve {
     Straight,
     /// Already there, with its range.
     Ready(Arc<Curve>, Interval),
+    /// Not to be had.
+    Lost(Fault),
 }
 
 /// An edge whose curve has not been read.
@@ -83,6 +87,8 @@ pub(crate) struct Seeds {
     pub surfaces: Vec<(usize, Units, bool)>,
     pub diagnostics: Diagnostics,
     pub vertex_of: FxHashMap<usize, VertexId>,
+    pub lost_vertex_of: FxHashMap<u64, VertexId>,
+    pub lost_edge_of: FxHashMap<u64, EdgeId>,
     pub edge_of: FxHashMap<usize, Outcome<EdgeId>>,
     pub polygon_edge_of: FxHashMap<(VertexId, VertexId), EdgeId>,
     pub face_of: FxHashMap<usize, u32>,
@@ -100,6 +106,15 @@ impl Seeds {
         let vertices = &mut self.vertices;
         *self.vertex_of.entry(index).or_insert_with(|| {
             vertices.push(VertexSeed::Entity { index, units });
+            (vertices.len() - 1) as VertexId
+        })
+    }
+
+    /// The vertex that should have been `#id`.
+    pub fn lost_vertex(&mut self, id: u64, fault: Fault) -> VertexId {
+        let vertices = &mut self.vertices;
+        *self.lost_vertex_of.entry(id).or_insert_with(|| {
+            vertices.push(VertexSeed::Lost(fault));
             (vertices.len() - 1) as VertexId
         })
     }

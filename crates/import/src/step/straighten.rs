@@ -58,10 +58,10 @@ pub(crate) fn straighten(
         if !surfaces.into_iter().flatten().all(|surface| runs_on(surface, *start, *end)) {
             continue;
         }
-        let entity = seed.index.map_or(EntityRef::None, |index| table.entity(index));
-        let message =
-            format!("The curve of edge {entity} cannot be read; the edge is straight as its faces show.");
-        diagnostics.push(Diagnostic::new(Severity::Warning, "edge-straightened", entity, message));
+        if let Err(fault) = &edges[id as usize] {
+            let message = format!("{}; the edge is straight as its faces show.", fault.message);
+            diagnostics.push(Diagnostic::new(Severity::Error, "edge-straightened", fault.entity, message));
+        }
         edges[id as usize] = Ok(straight(table, seed, *start, *end));
     }
 }
