@@ -62,7 +62,13 @@ impl FaceMesher<'_> {
             filling.refine();
         }
         let mut draft = FaceDraft::empty(FaceStatus::Exact, self.base());
-        draft.max_deviation_mm = filling.max_deviation_mm;
+        // The edges are the model's; no triangle that ends at them can be nearer to the surface than they are.
+        let lift = filling.max_lift_mm;
+        draft.max_deviation_mm = filling.max_deviation_mm.max(lift);
+        if lift > self.tolerance.linear_mm {
+            draft.status =
+                FaceStatus::Approximated(format!("its edges lie up to {lift:.3e} mm off its surface"));
+        }
         if !filling.within_bounds {
             let off = draft.max_deviation_mm;
             draft.status =

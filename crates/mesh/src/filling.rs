@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use trimloop_geom::Surface;
-use trimloop_trim::{EdgeSamples, Tolerance, TrimDomain, TrimVertex};
+use trimloop_trim::{EdgeSamples, Tolerance, TrimDomain, TrimVertex, doubtful_quarters};
 
 use crate::crease::Creases;
 use crate::draft::DraftVertex;
@@ -23,6 +23,8 @@ pub(crate) struct Filling<'a> {
     next_point: u32,
     /// The largest deviation that was accepted.
     pub max_deviation_mm: f64,
+    /// How far the edges lie off the surface.
+    pub max_lift_mm: f64,
     /// Whether everything that was measured keeps the bounds.
     pub within_bounds: bool,
     /// Whether two corners that are different points fell on one site.
@@ -49,6 +51,9 @@ impl SiteInSpace {
         self.position - self.lift
     }
 }
+
+/// An edge across a crease is to be nearer than this part of the tolerance.
+const CREASE_SHARE: f64 = 0.25;
 
 /// Rounds of refinement; each halves what is still too long.
 const MAX_ROUNDS: usize = 16;
@@ -77,6 +82,7 @@ impl<'a> Filling<'a> {
             first_inner,
             next_point: first_inner,
             max_deviation_mm: 0.0,
+            max_lift_mm: 0.0,
             within_bounds: true,
             merged: false,
             max_sites,
@@ -101,6 +107,7 @@ impl<'a> Filling<'a> {
                 let normal = self.normal(corner.uv);
                 let creased = self.creases.hold(corner.uv);
                 let lift = position - self.surface.point(corner.uv);
+                self.max_lift_mm = self.max_lift_mm.max(lift.length());
                 self.sites.push(SiteInSpace {
                     uv: corner.uv,
                     point: corner.point,
@@ -203,20 +210,37 @@ impl<'a> Filling<'a> {
         }
         let length = sa.position.distance(sb.position);
         // An edge that crosses a crease is split there, for its sides to lie on smooth pieces.
-        let share = self.creases.crossing(sa.uv, sb.uv).unwrap_or(0.5);
-        let at = self.triangulation.at(a).lerp(self.triangulation.at(b), share);
-        let off = self.off_surface(at, sa.on_surface().lerp(sb.on_surface(), share));
+        let crossing = self.creases.crossing(sa.uv, sb.uv);
+        let share = crossing.unwrap_or(0.5);
+        let at = self.between(a, b, share);
+        let mut off = self.off_chord(a, b, share);
+        if crossing.is_none() {
+            let chord = sb.on_surface() - sa.on_surface();
+            let normals = [sa, sb].map(|site| if site.creased { DVec3::ZERO } else { site.normal });
+            for quarter in doubtful_quarters(chord, normals, off, self.tolerance.linear_mm) {
+                off = off.abs().max(self.off_chord(a, b, quarter).abs());
+            }
+        }
+        let off = off.abs();
         let turned = !(sa.pole || sb.pole || sa.creased || sb.creased)
             && sa.normal.dot(sb.normal) < (self.tolerance.angular_rad * 1.001).cos()
             && sa.normal != DVec3::ZERO
             && sb.normal != DVec3::ZERO;
-        let split = off > self.bound_mm() || (turned && length > self.shortest_turn_mm());
+        // Between two crossings the crease runs on through a triangle, out of its edges' sight.
+        let bound = self.tolerance.linear_mm * if crossing.is_some() { CREASE_SHARE } else { 1.0 };
+        let split = off > bound || (turned && length > self.shortest_turn_mm());
         (split.then_some(at), off)
     }
 
-    /// What the middles of edges and triangles keep to, for all between them to keep to the tolerance.
-    fn bound_mm(&self) -> f64 {
-        self.tolerance.linear_mm * 0.8
+    /// The warped point at a share of the way between two sites.
+    fn between(&self, a: u32, b: u32, share: f64) -> DVec2 {
+        self.triangulation.at(a).lerp(self.triangulation.at(b), share)
+    }
+
+    /// How high the surface lies above the chord between two sites, at a share of the way.
+    fn off_chord(&self, a: u32, b: u32, share: f64) -> f64 {
+        let [from, to] = [a, b].map(|site| self.sites[site as usize].on_surface());
+        self.above(self.between(a, b, share), from.lerp(to, share))
     }
 
     /// Chords below this are not split for the angle's sake: a crease inside a surface would split for ever.
@@ -231,16 +255,16 @@ impl<'a> Filling<'a> {
         }
         let [pa, pb, pc] = t.map(|s| self.triangulation.at(s));
         let at = (pa + pb + pc) / 3.0;
-        let off = self.off_surface(at, (a.on_surface() + b.on_surface() + c.on_surface()) / 3.0);
-        ((off > self.bound_mm()).then_some(at), off)
+        let off = self.above(at, (a.on_surface() + b.on_surface() + c.on_surface()) / 3.0).abs();
+        ((off > self.tolerance.linear_mm).then_some(at), off)
     }
 
-    /// Distance along the normal between the surface at the warped point `at` and `chord`.
-    fn off_surface(&self, at: DVec2, chord: DVec3) -> f64 {
+    /// How far along the normal the surface at the warped point `at` lies above `chord`.
+    fn above(&self, at: DVec2, chord: DVec3) -> f64 {
         let d = self.surface.first_derivatives(self.warp.unmap(at));
         let gap = d.point - chord;
         match d.du.cross(d.dv).try_normalize() {
-            Some(normal) => normal.dot(gap).abs(),
+            Some(normal) => normal.dot(gap),
             None => 0.0,
         }
     }

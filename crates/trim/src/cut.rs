@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::band::Chart;
+use crate::chord::sag;
 
 /// How often a piece of a line may be halved.
 const MAX_DEPTH: u32 = 10;
@@ -63,10 +64,8 @@ fn too_coarse(chart: &Chart<'_>, a: &Station, b: &Station, middle: &Station) -> 
     if chord.length().max(middle.point.distance(a.point)) <= chart.tolerance.shortest_chord_mm() {
         return false;
     }
-    let off = match chord.try_normalize() {
-        Some(along) => (middle.point - a.point).reject_from_normalized(along).length(),
-        None => middle.point.distance(a.point),
-    };
+    let quarter = |share: f64| chart.surface.point(a.uv.lerp(b.uv, share));
+    let off = sag(a.point, chord, [quarter(0.25), middle.point, quarter(0.75)]);
     let turn = match (a.normal, b.normal) {
         (Some(a), Some(b)) => a.angle_between(b),
         _ => 0.0,

@@ -9,6 +9,7 @@ use trimloop_brep::{Edge, FaceGeometry, FaceId, Part};
 use trimloop_geom::{Curve, Direction, Interval, Singularity, Surface, SurfacePoint};
 
 use crate::Tolerance;
+use crate::chord::{doubtful_quarters, off_chord, sag};
 
 /// The shared samples of all edges of a part.
 #[derive(Clone, Debug, Default)]
@@ -58,6 +59,7 @@ struct Ground {
     singularities: Arc<Vec<Singularity>>,
     periods: [Option<f64>; 2],
     curved: bool,
+    free_form: bool,
 }
 
 /// Samples all edges of a part within `tolerance`: of the curve itself, and of the turn of the normals of the faces on
@@ -117,6 +119,13 @@ fn grounds_of_edges(part: &Part) -> Vec<Vec<Ground>> {
                 singularities: singularities.clone(),
                 periods: surface.periods(),
                 curved: !matches!(**surface, Surface::Plane { .. }),
+                free_form: matches!(
+                    **surface,
+                    Surface::Nurbs(_)
+                        | Surface::Extrusion { .. }
+                        | Surface::Revolution { .. }
+                        | Surface::Offset { .. }
+                ),
             });
         }
     }
@@ -134,6 +143,8 @@ struct Polyline {
 struct Sample {
     t: f64,
     point: DVec3,
+    /// How far the curve is from the chord that ends here.
+    sag: f64,
     /// One per ground; nearly always two.
     sides: SmallVec<[Foot; 2]>,
 }
@@ -202,9 +213,9 @@ impl Sampler<'_> {
                 _ => self.curve.point(t),
             };
             let near = samples.last().cloned();
-            let next = self.sample(t, point, near.as_ref(), None);
+            let mut next = self.sample(t, point, near.as_ref(), None);
             if let Some(near) = near {
-                self.fill(&near, &next, 0, &mut samples);
+                next.sag = self.fill(&near, &next, 0, &mut samples);
             }
             samples.push(next);
         }
@@ -297,19 +308,22 @@ impl Sampler<'_> {
         kept.into_iter().map(|i| samples[i].clone()).collect()
     }
 
-    /// Whether one chord may stand for all of `run`, with half the tolerance left for what lies between the samples.
+    /// Whether one chord may stand for all of `run`, with what lies between its samples.
     fn spans(&self, run: &[Sample]) -> bool {
         let (Some(a), Some(b)) = (run.first(), run.last()) else { return false };
         let Some(along) = (b.point - a.point).try_normalize() else { return false };
         let inner = &run[1..run.len() - 1];
-        let near = |s: &Sample| {
-            let off = (s.point - a.point).reject_from_normalized(along).length();
-            off <= self.tolerance.linear_mm * 0.5 && s.sides.iter().all(|f| f.singular.is_none())
+        let off = |s: &Sample| (s.point - a.point).reject_from_normalized(along).length();
+        let near = |pair: &[Sample]| {
+            let off = off(&pair[0]).max(off(&pair[1]));
+            off <= self.tolerance.linear_mm * 0.5 && off + pair[1].sag <= self.tolerance.linear_mm
         };
+        let regular = |s: &Sample| s.sides.iter().all(|f| f.singular.is_none());
         let straight = |pair: &[Sample]| {
             (pair[1].point - pair[0].point).angle_between(along) <= self.tolerance.angular_rad * 0.45
         };
-        inner.iter().all(near)
+        inner.iter().all(regular)
+            && run.windows(2).all(near)
             && run.windows(2).all(straight)
             && !run[1..].iter().any(|s| {
                 a.sides.iter().zip(&s.sides).zip(self.grounds).any(|((fa, fs), g)| self.turns(g, fa, fs))
@@ -321,7 +335,7 @@ impl Sampler<'_> {
             let hint = self.hint(g, k, t, point, near, other);
             self.foot(g, point, hint)
         });
-        Sample { t, point, sides: sides.collect() }
+        Sample { t, point, sag: 0.0, sides: sides.collect() }
     }
 
     fn hint(
@@ -373,54 +387,67 @@ impl Sampler<'_> {
         if other.distance < foot.distance * 0.5 { other } else { foot }
     }
 
-    /// Adds the samples strictly between `a` and `b`.
-    fn fill(&self, a: &Sample, b: &Sample, depth: u32, out: &mut Vec<Sample>) {
+    /// Adds the samples strictly between `a` and `b`. Gives how far the curve is from the chord that ends at `b`.
+    fn fill(&self, a: &Sample, b: &Sample, depth: u32, out: &mut Vec<Sample>) -> f64 {
         if depth >= MAX_DEPTH || !(a.t - b.t).abs().is_normal() {
-            return;
+            return 0.0;
         }
         let t = (a.t + b.t) * 0.5;
         let point = self.curve.point(t);
-        if !self.too_coarse(a, b, point) {
-            return;
+        if let Some(sag) = self.accepted(a, b, point) {
+            return sag;
         }
-        let middle = self.sample(t, point, Some(a), Some(b));
-        self.fill(a, &middle, depth + 1, out);
+        let mut middle = self.sample(t, point, Some(a), Some(b));
+        middle.sag = self.fill(a, &middle, depth + 1, out);
         out.push(middle.clone());
-        self.fill(&middle, b, depth + 1, out);
+        self.fill(&middle, b, depth + 1, out)
     }
 
-    fn too_coarse(&self, a: &Sample, b: &Sample, middle: DVec3) -> bool {
+    /// How far the curve is from its chord; `None` where that, or the turn of the faces, is too much.
+    fn accepted(&self, a: &Sample, b: &Sample, middle: DVec3) -> Option<f64> {
         let chord = b.point - a.point;
         let length = (middle - a.point).length() + (b.point - middle).length();
         if length <= self.tolerance.shortest_chord_mm() {
-            return false;
+            return Some(length);
         }
-        if !matches!(self.curve, Curve::Line { .. }) && self.bends(a.point, b.point, middle, chord) {
-            return true;
-        }
-        if matches!(self.curve, Curve::Nurbs(_)) && self.wavers(a, b, chord) {
-            return true;
-        }
-        a.sides.iter().zip(&b.sides).zip(self.grounds).any(|((fa, fb), g)| self.turns(g, fa, fb))
-    }
-
-    fn bends(&self, a: DVec3, b: DVec3, middle: DVec3, chord: DVec3) -> bool {
-        let off = match chord.try_normalize() {
-            Some(along) => (middle - a).reject_from_normalized(along).length(),
-            None => middle.distance(a),
+        let sag = match self.curve {
+            Curve::Line { .. } => 0.0,
+            Curve::Nurbs(_) => {
+                let at = |share: f64| self.curve.point(a.t + (b.t - a.t) * share);
+                sag(a.point, chord, [at(0.25), middle, at(0.75)])
+            }
+            _ => off_chord(a.point, chord, middle).length(),
         };
         // The chords of the two halves turn by half as much as the tangents at the ends do.
-        off > self.tolerance.linear_mm
-            || 2.0 * (middle - a).angle_between(b - middle) > self.tolerance.angular_rad * 1.001
+        let turn = 2.0 * (middle - a.point).angle_between(b.point - middle);
+        let bends = !matches!(self.curve, Curve::Line { .. }) && turn > self.tolerance.angular_rad * 1.001;
+        if sag > self.tolerance.linear_mm || bends {
+            return None;
+        }
+        let mut sides = a.sides.iter().zip(&b.sides).zip(self.grounds);
+        let coarse = sides.any(|((fa, fb), g)| self.turns(g, fa, fb) || self.sinks(g, a, b, [fa, fb]));
+        (!coarse).then_some(sag)
     }
 
-    /// Whether a spline that meets its chord in the middle leaves it before or after.
-    fn wavers(&self, a: &Sample, b: &Sample, chord: DVec3) -> bool {
-        let Some(along) = chord.try_normalize() else { return false };
-        [0.25, 0.75].into_iter().any(|share| {
-            let point = self.curve.point(a.t + (b.t - a.t) * share);
-            (point - a.point).reject_from_normalized(along).length() > self.tolerance.linear_mm
-        })
+    /// Whether a chord sinks into a free-form surface (or rises from it) between its ends, which the curve need not do
+    /// where it is only near the surface.
+    fn sinks(&self, ground: &Ground, a: &Sample, b: &Sample, [fa, fb]: [&Foot; 2]) -> bool {
+        if !ground.free_form || fa.singular.is_some() || fb.singular.is_some() {
+            return false;
+        }
+        let (from, to) = (fa.uv, self.nearest_image(ground, fb.uv, fa.uv));
+        let lifted = [a.point - ground.surface.point(fa.uv), b.point - ground.surface.point(fb.uv)];
+        let chord = b.point - lifted[1] - (a.point - lifted[0]);
+        let above = |share: f64| {
+            let d = ground.surface.first_derivatives(from.lerp(to, share));
+            let normal = d.du.cross(d.dv).try_normalize().unwrap_or_default();
+            normal.dot(d.point - (a.point - lifted[0] + chord * share))
+        };
+        let middle = above(0.5);
+        let normals = [fa, fb].map(|foot| foot.normal.unwrap_or_default());
+        middle.abs() > self.tolerance.linear_mm
+            || doubtful_quarters(chord, normals, middle, self.tolerance.linear_mm)
+                .any(|share| above(share).abs() > self.tolerance.linear_mm)
     }
 
     /// Whether the surface turns, or its parameters run, too far between two feet.

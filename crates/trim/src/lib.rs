@@ -5,6 +5,7 @@
 //! polygons whose inside is the face.
 
 mod band;
+mod chord;
 mod classify;
 mod cut;
 mod domain;
@@ -15,6 +16,7 @@ pub mod polygon;
 mod tolerance;
 mod unroll;
 
+pub use chord::doubtful_quarters;
 pub use classify::{Classifier, Side};
 pub use domain::{TrimDomain, TrimError, TrimLoop, TrimVertex};
 pub use edge_samples::{EdgeSamples, EdgeSide, SampledEdge, sample_curve, sample_edges};

@@ -9,13 +9,15 @@ use trimloop_tests::fixture;
 /// Steps along a triangle's sides: 45 samples each.
 const DENSITY: usize = 8;
 
-/// Prints the table for the default deflection and for the fine one, and where the worst of each kind is.
-pub fn run() {
+/// Prints the table for the default deflection and for the fine one, and where the worst of each kind is; of the
+/// fixtures whose name contains one of `words`, or of all.
+pub fn run(words: &[String]) {
     for (title, options) in
         [("0.1 %, 20 degrees", default_deflection()), ("0.01 %, 5 degrees", fine_deflection())]
     {
         let mut table: BTreeMap<_, (Deviation, String)> = BTreeMap::new();
-        for fixture in fixture::all() {
+        let chosen = |name: &str| words.is_empty() || words.iter().any(|word| name.contains(word));
+        for fixture in fixture::all().into_iter().filter(|fixture| chosen(&fixture.name)) {
             // A broken fixture has no surfaces to be away from.
             let Ok(conversion) = Conversion::of(&fixture, &options) else { continue };
             for (kind, deviation) in deviation::by_surface(&conversion.model, &conversion.meshes, DENSITY) {

@@ -34,7 +34,10 @@ enum Task {
     ValidateGltf,
     /// Print how far the fixtures' triangles are from the exact surfaces, by kind of surface (use a release build:
     /// cargo run --release --package xtask -- deviation)
-    Deviation,
+    Deviation {
+        /// Only the fixtures whose name contains one of these words
+        words: Vec<String>,
+    },
     /// Run the Criterion benchmarks
     Bench {
         /// Passed on to cargo bench
@@ -58,8 +61,8 @@ fn main() -> anyhow::Result<()> {
     match Arguments::parse().task {
         Task::Fixtures { arguments } => run(root.join("tools/reference/make"), &root, arguments),
         Task::ValidateGltf => validate_gltf::run(&root),
-        Task::Deviation => {
-            deviation::run();
+        Task::Deviation { words } => {
+            deviation::run(&words);
             Ok(())
         }
         Task::Bench { arguments } => {

@@ -17,6 +17,11 @@ impl Fault {
         Self { entity: EntityRef::Step(id), message: format!("#{id} {}", message.as_ref()) }
     }
 
+    /// The fault as a warning: no face is the worse for it.
+    pub fn warning(&self, code: &'static str) -> Diagnostic {
+        Diagnostic::new(Severity::Warning, code, self.entity, self.message.clone())
+    }
+
     /// The fault as an error diagnostic.
     pub fn diagnostic(&self, code: &'static str) -> Diagnostic {
         Diagnostic::new(Severity::Error, code, self.entity, self.message.clone())

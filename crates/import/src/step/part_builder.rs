@@ -97,7 +97,7 @@ impl<'t> PartBuilder<'t> {
                 range: segment.range,
                 color: look.curve.or(look.surface),
             }),
-            Err(fault) => self.seeds.diagnostics.push(fault.diagnostic("curve-unreadable")),
+            Err(fault) => self.seeds.diagnostics.push(fault.warning("curve-unreadable")),
         }
     }
 

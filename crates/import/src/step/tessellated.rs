@@ -103,7 +103,7 @@ impl<'t> PartBuilder<'t> {
             }
             Kind::TessellatedCurveSet if !look.hidden => {
                 if let Err(fault) = self.line_strips(index, look, context, map) {
-                    self.seeds.diagnostics.push(fault.diagnostic("curve-unreadable"));
+                    self.seeds.diagnostics.push(fault.warning("curve-unreadable"));
                 }
             }
             _ => {}

@@ -37,7 +37,7 @@ impl PartBuilder<'_> {
         let look = self.looks.of(index).over(inherited);
         match self.free_edge(index, look, context) {
             Ok(curve) => self.seeds.free_curves.push(curve),
-            Err(fault) => self.seeds.diagnostics.push(fault.diagnostic("curve-unreadable")),
+            Err(fault) => self.seeds.diagnostics.push(fault.warning("curve-unreadable")),
         }
     }
 
