@@ -6,6 +6,7 @@ use trimloop_trim::{EdgeSamples, Tolerance, TrimDomain, TrimVertex, doubtful_qua
 
 use crate::crease::Creases;
 use crate::draft::DraftVertex;
+use crate::fringe::Fringe;
 use crate::seeds::seeds;
 use crate::triangulation::Triangulation;
 use crate::warp::Warp;
@@ -15,6 +16,7 @@ pub(crate) struct Filling<'a> {
     surface: &'a Surface,
     tolerance: Tolerance,
     creases: Creases,
+    fringe: Fringe,
     warp: Warp,
     triangulation: Triangulation,
     sites: Vec<SiteInSpace>,
@@ -69,13 +71,18 @@ impl<'a> Filling<'a> {
     ) -> Option<Self> {
         let (low, high) = domain.uv_bounds();
         let warp = Warp::new(surface, low, high, tolerance, max_sites);
-        let inner = seeds(domain, &warp);
+        let fringe = fringe(surface, domain, samples, tolerance);
+        let mut inner = seeds(domain, &warp);
+        if !fringe.is_empty() {
+            inner.retain(|&uv| !fringe.holds(surface.point(uv)));
+        }
         let triangulation = Triangulation::new(domain, &inner, &warp)?;
         let first_inner = domain.own_base + domain.own_points.len() as u32;
         let mut filling = Self {
             surface,
             tolerance,
             creases: Creases::new(surface, low, high),
+            fringe,
             warp,
             sites: Vec::with_capacity(triangulation.len()),
             triangulation,
@@ -181,11 +188,11 @@ impl<'a> Filling<'a> {
             }
             let (at, off) = self.edge_violation(a, b);
             match at {
-                Some(at) => {
+                Some(at) if self.is_open(at) => {
                     faces.iter().for_each(|&f| broken[f] = true);
                     out.push((at, a));
                 }
-                None => worst = worst.max(off),
+                _ => worst = worst.max(off),
             }
         }
         for (face, t) in self.triangulation.triangles() {
@@ -194,12 +201,17 @@ impl<'a> Filling<'a> {
             }
             let (at, off) = self.triangle_violation(t);
             match at {
-                Some(at) => out.push((at, t[0])),
-                None => worst = worst.max(off),
+                Some(at) if self.is_open(at) => out.push((at, t[0])),
+                _ => worst = worst.max(off),
             }
         }
         self.max_deviation_mm = worst;
         out
+    }
+
+    /// Whether a point may be added at the warped place `at`.
+    fn is_open(&self, at: DVec2) -> bool {
+        self.fringe.is_empty() || !self.fringe.holds(self.surface.point(self.warp.unmap(at)))
     }
 
     /// The edge's middle if it is to be split, and its distance from the surface.
@@ -289,4 +301,24 @@ impl<'a> Filling<'a> {
             self.sites.iter().filter(|s| s.point >= self.first_inner).map(|s| s.position).collect();
         (vertices, triangles, first_own)
     }
+}
+
+/// The strips along the domain's edges that lie off the surface.
+fn fringe(surface: &Surface, domain: &TrimDomain, samples: &EdgeSamples, tolerance: Tolerance) -> Fringe {
+    let mut fringe = Fringe::default();
+    if matches!(surface, Surface::Plane { .. }) {
+        return fringe;
+    }
+    for l in &domain.loops {
+        let corners = l.vertices.iter().map(|v| {
+            let point = domain.point(v, samples);
+            (point, point - surface.point(v.uv))
+        });
+        let corners: Vec<(DVec3, DVec3)> = corners.collect();
+        for (k, &(from, lift)) in corners.iter().enumerate() {
+            let (to, next_lift) = corners[(k + 1) % corners.len()];
+            fringe.add([from, to], [lift, next_lift], tolerance.linear_mm);
+        }
+    }
+    fringe
 }

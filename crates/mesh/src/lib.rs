@@ -10,6 +10,7 @@ mod draft;
 mod ear_clipping;
 mod face;
 mod filling;
+mod fringe;
 mod monitor;
 mod options;
 mod orientation;

@@ -62,10 +62,10 @@ struct Cell {
 }
 
 /// A step in a direction without curvature is at most this many times as long as one across it.
-const MAX_ASPECT: f64 = 8.0;
+const MAX_ASPECT: f64 = 64.0;
 
 /// The same on free-form surfaces, where it also sets how far apart points lie.
-const FREE_FORM_ASPECT: f64 = 12.0;
+const FREE_FORM_ASPECT: f64 = 4.0;
 
 impl Warp {
     /// The warp for `surface` over `low`..`high`; at most `max_points` line crossings.
