@@ -78,13 +78,15 @@ fn of_face(surface: &Surface, face_mesh: &FaceMesh, mesh: &PartMesh, density: us
         let corners = corners(triangle);
         let points = corners.map(|v| mesh.positions[v.position as usize]);
         let facing = facing(points);
+        let centre = corners.iter().map(|v| v.uv).sum::<DVec2>() / 3.0;
         for weights in samples(density) {
             let blend = |v: [DVec3; 3]| v[0] * weights.x + v[1] * weights.y + v[2] * weights.z;
             let uv = corners[0].uv * weights.x + corners[1].uv * weights.y + corners[2].uv * weights.z;
             let foot = exact.foot(blend(points), uv);
             worst.samples += 1;
             worst.distance_share = worst.distance_share.max(foot.distance / mesh.linear_deflection_mm);
-            let Some(normal) = exact.normal(foot.uv) else { continue };
+            // On a crease there are two normals: that of the triangle's own side is meant.
+            let Some(normal) = exact.normal(foot.uv.lerp(centre, 1e-4)) else { continue };
             let shading = blend(corners.map(|v| v.normal)).angle_between(normal);
             let at_corner = weights.max_element() > 1.0 - 1e-9;
             let angle = if at_corner { &mut worst.vertex_normal_rad } else { &mut worst.shading_normal_rad };

@@ -64,7 +64,7 @@ pub struct Measure {
     pub volume_mm3: f64,
     /// Their centroid.
     pub centroid_mm: DVec3,
-    /// Lower and upper corner of all vertices, those of lines too.
+    /// Lower and upper corner of the triangles, of the lines where there is no triangle.
     pub bbox_mm: [DVec3; 2],
     /// Their area by colour.
     pub colors: BTreeMap<String, f64>,
@@ -111,7 +111,12 @@ impl Scene {
         for node in &self.nodes {
             let Some(mesh) = node.mesh.map(|mesh| &self.meshes[mesh]) else { continue };
             mesh.surfaces.iter().for_each(|surface| measure.add(surface, &node.world));
-            mesh.lines.iter().for_each(|&point| measure.hold(file_axes_mm(&node.world, point)));
+        }
+        if measure.triangles == 0 {
+            for node in &self.nodes {
+                let lines = node.mesh.iter().flat_map(|&mesh| &self.meshes[mesh].lines);
+                lines.for_each(|&point| measure.hold(file_axes_mm(&node.world, point)));
+            }
         }
         measure.centroid_mm /= measure.area_mm2;
         measure
@@ -127,13 +132,15 @@ impl Measure {
     fn add(&mut self, surface: &Surface, world: &DMat4) {
         let side = world.determinant().signum();
         let points: Vec<_> = surface.positions.iter().map(|&p| file_axes_mm(world, p)).collect();
+        let origin = file_axes_mm(world, [0.0; 3]);
         let mut area = 0.0;
         for triangle in &surface.triangles {
             let [a, b, c] = triangle.map(|i| points[i as usize]);
             let twice = (b - a).cross(c - a).length();
             area += twice / 2.0;
             self.centroid_mm += (a + b + c) / 3.0 * twice / 2.0;
-            self.volume_mm3 += side * a.dot(b.cross(c)) / 6.0;
+            // From the mesh's own origin: far from the world's, the parts would cancel all digits.
+            self.volume_mm3 += side * (a - origin).dot((b - origin).cross(c - origin)) / 6.0;
             [a, b, c].into_iter().for_each(|point| self.hold(point));
         }
         self.triangles += surface.triangles.len();

@@ -21,7 +21,7 @@ const MAX_BREAKS: usize = 128;
 impl Creases {
     /// Finds the creases of `surface` over `low`..`high`.
     pub fn new(surface: &Surface, low: DVec2, high: DVec2) -> Self {
-        let mut out = Self { near: ((high - low) * 1e-9).into(), ..Self::default() };
+        let mut out = Self { near: ((high - low) * 1e-7).into(), ..Self::default() };
         for (k, direction) in [Direction::U, Direction::V].into_iter().enumerate() {
             let candidates = candidates(surface, direction, low, high);
             out.lines[k] = candidates.into_iter().filter(|&at| jumps(surface, k, at, low, high)).collect();
@@ -33,6 +33,19 @@ impl Creases {
     pub fn hold(&self, uv: DVec2) -> bool {
         let p: [f64; 2] = uv.into();
         (0..2).any(|k| self.lines[k].iter().any(|&at| (p[k] - at).abs() <= self.near[k]))
+    }
+
+    /// A point next to one on a crease, on the side of `towards`; `None` where it lies on none.
+    pub fn beside(&self, uv: DVec2, towards: DVec2) -> Option<DVec2> {
+        let (mut p, q): ([f64; 2], [f64; 2]) = (uv.into(), towards.into());
+        let mut creased = false;
+        for k in 0..2 {
+            if let Some(&at) = self.lines[k].iter().find(|&&at| (p[k] - at).abs() <= self.near[k]) {
+                p[k] = at + 4.0 * self.near[k] * (q[k] - at).signum();
+                creased = true;
+            }
+        }
+        creased.then(|| p.into())
     }
 
     /// Where the segment from `a` to `b` first crosses a crease, as a share of its length.
@@ -96,6 +109,9 @@ mod tests {
         let creases = Creases::new(&surface, DVec2::ZERO, DVec2::new(2.0, 1.0));
         assert!(creases.hold(DVec2::new(1.0, 0.3)));
         assert!(!creases.hold(DVec2::new(0.5, 0.3)));
+        let beside = creases.beside(DVec2::new(1.0, 0.3), DVec2::new(1.5, 0.9)).expect("on the crease");
+        assert!(beside.x > 1.0 && beside.x < 1.001 && beside.y == 0.3);
+        assert_eq!(creases.beside(DVec2::new(0.5, 0.3), DVec2::ONE), None);
         assert_eq!(creases.crossing(DVec2::new(0.5, 0.0), DVec2::new(2.0, 0.0)), Some(1.0 / 3.0));
     }
 }

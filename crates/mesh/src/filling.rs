@@ -1,6 +1,7 @@
 //! Triangles for a domain, refined until they keep to the exact surface.
 
 use glam::{DVec2, DVec3};
+use rustc_hash::FxHashMap;
 use trimloop_geom::Surface;
 use trimloop_trim::{EdgeSamples, Tolerance, TrimDomain, TrimVertex, doubtful_quarters};
 
@@ -39,7 +40,8 @@ struct SiteInSpace {
     uv: DVec2,
     point: u32,
     position: DVec3,
-    /// From the surface to `position`: where the model's edges lie off the surface, its triangles cannot keep to it.
+    /// From the surface to `position`, where that is no more than the tolerance: triangles are measured without it.
+    /// Edges that are farther off have a strip in which nothing is measured.
     lift: DVec3,
     normal: DVec3,
     /// Whether it is one of several sites for a single point: a pole, where the normal is whatever one likes.
@@ -115,6 +117,7 @@ impl<'a> Filling<'a> {
                 let creased = self.creases.hold(corner.uv);
                 let lift = position - self.surface.point(corner.uv);
                 self.max_lift_mm = self.max_lift_mm.max(lift.length());
+                let lift = if lift.length() > self.tolerance.linear_mm { DVec3::ZERO } else { lift };
                 self.sites.push(SiteInSpace {
                     uv: corner.uv,
                     point: corner.point,
@@ -221,27 +224,36 @@ impl<'a> Filling<'a> {
             return (None, 0.0);
         }
         let length = sa.position.distance(sb.position);
+        let bound = self.tolerance.linear_mm;
         // An edge that crosses a crease is split there, for its sides to lie on smooth pieces.
         let crossing = self.creases.crossing(sa.uv, sb.uv);
-        let share = crossing.unwrap_or(0.5);
-        let at = self.between(a, b, share);
-        let mut off = self.off_chord(a, b, share);
-        if crossing.is_none() {
-            let chord = sb.on_surface() - sa.on_surface();
-            let normals = [sa, sb].map(|site| if site.creased { DVec3::ZERO } else { site.normal });
-            for quarter in doubtful_quarters(chord, normals, off, self.tolerance.linear_mm) {
-                off = off.abs().max(self.off_chord(a, b, quarter).abs());
+        let mut off = 0.0;
+        if let Some(share) = crossing {
+            off = self.off_chord(a, b, share).abs();
+            // Between two crossings the crease runs on through a triangle, out of its edges' sight.
+            if off > bound * CREASE_SHARE {
+                return (Some(self.between(a, b, share)), off);
             }
         }
-        let off = off.abs();
+        let middle = self.off_chord(a, b, 0.5);
+        off = off.max(middle.abs());
+        let chord = sb.on_surface() - sa.on_surface();
+        let normals = [sa, sb].map(|site| if site.creased { DVec3::ZERO } else { site.normal });
+        for quarter in doubtful_quarters(chord, normals, middle, bound) {
+            off = off.max(self.off_chord(a, b, quarter).abs());
+        }
         let turned = !(sa.pole || sb.pole || sa.creased || sb.creased)
             && sa.normal.dot(sb.normal) < (self.tolerance.angular_rad * 1.001).cos()
             && sa.normal != DVec3::ZERO
             && sb.normal != DVec3::ZERO;
-        // Between two crossings the crease runs on through a triangle, out of its edges' sight.
-        let bound = self.tolerance.linear_mm * if crossing.is_some() { CREASE_SHARE } else { 1.0 };
-        let split = off > bound || (turned && length > self.shortest_turn_mm());
-        (split.then_some(at), off)
+        let at = if turned && length > self.shortest_turn_mm() {
+            crossing.unwrap_or(0.5)
+        } else if off > bound {
+            crossing.filter(|share| (0.1..=0.9).contains(share)).unwrap_or(0.5)
+        } else {
+            return (None, off);
+        };
+        (Some(self.between(a, b, at)), off)
     }
 
     /// The warped point at a share of the way between two sites.
@@ -289,17 +301,39 @@ impl<'a> Filling<'a> {
             let [a, b, c] = t.map(|s| self.sites[s as usize].point);
             a != b && b != c && c != a
         };
-        let triangles: Vec<[u32; 3]> = self
+        let mut triangles: Vec<[u32; 3]> = self
             .triangulation
             .triangles()
             .filter(|(f, t)| inside[*f] && distinct(t))
             .map(|(_, t)| t)
             .collect();
-        let vertices =
+        let mut vertices: Vec<DraftVertex> =
             self.sites.iter().map(|s| DraftVertex { point: s.point, normal: s.normal, uv: s.uv }).collect();
+        self.split_normals(&mut vertices, &mut triangles);
         let first_own =
             self.sites.iter().filter(|s| s.point >= self.first_inner).map(|s| s.position).collect();
         (vertices, triangles, first_own)
+    }
+
+    /// On creases, gives each side vertices with its own normal.
+    fn split_normals(&self, vertices: &mut Vec<DraftVertex>, triangles: &mut [[u32; 3]]) {
+        if self.sites.iter().all(|site| !site.creased) {
+            return;
+        }
+        let mut known: FxHashMap<(u32, [i64; 3]), u32> = FxHashMap::default();
+        for t in triangles {
+            let centre = t.iter().map(|&s| self.sites[s as usize].uv).sum::<DVec2>() / 3.0;
+            for corner in t {
+                let site = self.sites[*corner as usize];
+                let Some(beside) = self.creases.beside(site.uv, centre) else { continue };
+                let normal = self.normal(beside);
+                let key = (normal * 1e6).round().as_i64vec3().to_array();
+                *corner = *known.entry((*corner, key)).or_insert_with(|| {
+                    vertices.push(DraftVertex { normal, ..vertices[*corner as usize] });
+                    vertices.len() as u32 - 1
+                });
+            }
+        }
     }
 }
 

@@ -17,7 +17,7 @@ struct Piece {
 }
 
 /// A strip is this many times as wide as its edge is off.
-const WIDTH: f64 = 6.0;
+const WIDTH: f64 = 8.0;
 /// More pieces are not looked through for every point.
 const MAX_PIECES: usize = 4096;
 

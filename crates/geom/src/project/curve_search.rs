@@ -88,12 +88,36 @@ impl<E: Fn(f64) -> [DVec3; 3]> CurveSearch<E> {
 
     /// From a little before the sample and a little after it: at a corner the two lead to different feet.
     fn descend_from_both_sides(&self, target: DVec3, start: Start) -> Foot {
-        let before = self.descend(target, start.t + 0.3 * (start.bracket.start - start.t));
-        if before.proper && before.t > start.t {
+        let [left, right] =
+            [start.bracket.start, start.bracket.end].map(|end| start.t + 0.3 * (end - start.t));
+        if self.turns_at(start) {
+            // Just short of the corner, where the derivatives are still those of the side.
+            let beside = |end: f64| start.t + 1e-9 * (end - start.t);
+            let Interval { start: first, end: last } = start.bracket;
+            let before = self.descend_within(target, left, Interval::new(first, beside(first)));
+            let after = self.descend_within(target, right, Interval::new(beside(last), last));
+            return if after.distance2 < before.distance2 { after } else { before };
+        }
+        let before = self.descend(target, left);
+        // Farther on, it may have passed a corner.
+        if before.proper && before.t > start.t && before.t <= start.bracket.end {
             return before;
         }
-        let after = self.descend(target, start.t + 0.3 * (start.bracket.end - start.t));
-        if after.distance2 < before.distance2 || !before.proper { after } else { before }
+        let after = self.descend(target, right);
+        if after.distance2 < before.distance2 { after } else { before }
+    }
+
+    /// Whether the curve has a corner at a sample.
+    fn turns_at(&self, start: Start) -> bool {
+        let tangent = |end: f64| (self.evaluate)(start.t + 1e-6 * (end - start.t))[1];
+        let (before, after) = (tangent(start.bracket.start), tangent(start.bracket.end));
+        before.cross(after).length_squared() > 1e-6 * before.length_squared() * after.length_squared()
+    }
+
+    /// [`Self::descend`] between two parameters.
+    fn descend_within(&self, target: DVec3, start: f64, range: Interval) -> Foot {
+        let limits = Interval::new(self.limits.clamp(range.start), self.limits.clamp(range.end));
+        CurveSearch { evaluate: &self.evaluate, limits, length: self.length }.descend(target, start)
     }
 
     /// Newton steps on the squared distance, Gauss-Newton where that is not convex, each shortened until the distance
@@ -148,7 +172,9 @@ impl<E: Fn(f64) -> [DVec3; 3]> CurveSearch<E> {
     fn is_proper(&self, t: f64, [point, tangent, _]: [DVec3; 3], target: DVec3, scale: f64) -> bool {
         let residual = point - target;
         let slope = residual.dot(tangent);
-        if residual.length() <= 1e-12 * scale || slope.abs() <= 1e-7 * residual.length() * tangent.length() {
+        // Descent ends when steps no longer matter to the point: near the curve, that says little of the angle.
+        let square = (1e-7 * residual.length()).max(1e-11 * scale) * tangent.length();
+        if residual.length() <= 1e-12 * scale || slope.abs() <= square {
             return true;
         }
         (t <= self.limits.start && slope > 0.0) || (t >= self.limits.end && slope < 0.0)

@@ -273,8 +273,9 @@ impl Gradient {
 
     /// Whether the residual is square to the surface along the free parameters.
     fn vanishes(&self, residual: f64, scale: f64) -> bool {
-        let flat =
-            |d: usize| !self.free[d] || self.slope[d].abs() <= 1e-7 * residual * self.metric[2 * d].sqrt();
+        // Descent ends when steps no longer matter to the point: near the surface, that says little of the angle.
+        let square = (1e-7 * residual).max(1e-11 * scale);
+        let flat = |d: usize| !self.free[d] || self.slope[d].abs() <= square * self.metric[2 * d].sqrt();
         residual <= 1e-12 * scale || (flat(0) && flat(1))
     }
 }
