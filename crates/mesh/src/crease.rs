@@ -21,7 +21,7 @@ const MAX_BREAKS: usize = 128;
 impl Creases {
     /// Finds the creases of `surface` over `low`..`high`.
     pub fn new(surface: &Surface, low: DVec2, high: DVec2) -> Self {
-        let mut out = Self { near: ((high - low) * 1e-7).into(), ..Self::default() };
+        let mut out = Self { near: ((high - low) * 1e-8).into(), ..Self::default() };
         for (k, direction) in [Direction::U, Direction::V].into_iter().enumerate() {
             let candidates = candidates(surface, direction, low, high);
             out.lines[k] = candidates.into_iter().filter(|&at| jumps(surface, k, at, low, high)).collect();
@@ -48,12 +48,17 @@ impl Creases {
         creased.then(|| p.into())
     }
 
-    /// Where the segment from `a` to `b` first crosses a crease, as a share of its length.
-    pub fn crossing(&self, a: DVec2, b: DVec2) -> Option<f64> {
+    /// Where the segment from `a` to `b` first crosses a crease, as a share of its length, and the point there.
+    pub fn crossing(&self, a: DVec2, b: DVec2) -> Option<(f64, DVec2)> {
         let (p, q): ([f64; 2], [f64; 2]) = (a.into(), b.into());
         let share = |k: usize, at: f64| {
             let inside = p[k].min(q[k]) + self.near[k] < at && at < p[k].max(q[k]) - self.near[k];
-            inside.then(|| (at - p[k]) / (q[k] - p[k]))
+            inside.then(|| {
+                let share = (at - p[k]) / (q[k] - p[k]);
+                let mut point = a.lerp(b, share).to_array();
+                point[k] = at;
+                (share, point.into())
+            })
         };
         (0..2).find_map(|k| self.lines[k].iter().find_map(|&at| share(k, at)))
     }
@@ -112,6 +117,6 @@ mod tests {
         let beside = creases.beside(DVec2::new(1.0, 0.3), DVec2::new(1.5, 0.9)).expect("on the crease");
         assert!(beside.x > 1.0 && beside.x < 1.001 && beside.y == 0.3);
         assert_eq!(creases.beside(DVec2::new(0.5, 0.3), DVec2::ONE), None);
-        assert_eq!(creases.crossing(DVec2::new(0.5, 0.0), DVec2::new(2.0, 0.0)), Some(1.0 / 3.0));
+        assert_eq!(creases.crossing(DVec2::new(0.5, 0.0), DVec2::new(2.0, 0.0)), Some((1.0 / 3.0, DVec2::X)));
     }
 }

@@ -72,7 +72,7 @@ impl<'a> Filling<'a> {
         max_sites: usize,
     ) -> Option<Self> {
         let (low, high) = domain.uv_bounds();
-        let warp = Warp::new(surface, low, high, tolerance, max_sites);
+        let warp = Warp::new(surface, low, high, tolerance, max_sites, has_pole(domain));
         let fringe = fringe(surface, domain, samples, tolerance);
         let mut inner = seeds(domain, &warp);
         if !fringe.is_empty() {
@@ -228,11 +228,12 @@ impl<'a> Filling<'a> {
         // An edge that crosses a crease is split there, for its sides to lie on smooth pieces.
         let crossing = self.creases.crossing(sa.uv, sb.uv);
         let mut off = 0.0;
-        if let Some(share) = crossing {
-            off = self.off_chord(a, b, share).abs();
+        if let Some((share, uv)) = crossing {
+            let at = self.warp.map(uv);
+            off = self.above(at, sa.on_surface().lerp(sb.on_surface(), share)).abs();
             // Between two crossings the crease runs on through a triangle, out of its edges' sight.
             if off > bound * CREASE_SHARE {
-                return (Some(self.between(a, b, share)), off);
+                return (Some(at), off);
             }
         }
         let middle = self.off_chord(a, b, 0.5);
@@ -246,14 +247,15 @@ impl<'a> Filling<'a> {
             && sa.normal.dot(sb.normal) < (self.tolerance.angular_rad * 1.001).cos()
             && sa.normal != DVec3::ZERO
             && sb.normal != DVec3::ZERO;
-        let at = if turned && length > self.shortest_turn_mm() {
-            crossing.unwrap_or(0.5)
+        let crossing = if turned && length > self.shortest_turn_mm() {
+            crossing
         } else if off > bound {
-            crossing.filter(|share| (0.1..=0.9).contains(share)).unwrap_or(0.5)
+            crossing.filter(|(share, _)| (0.1..=0.9).contains(share))
         } else {
             return (None, off);
         };
-        (Some(self.between(a, b, at)), off)
+        let at = crossing.map_or_else(|| self.between(a, b, 0.5), |(_, uv)| self.warp.map(uv));
+        (Some(at), off)
     }
 
     /// The warped point at a share of the way between two sites.
@@ -309,10 +311,25 @@ impl<'a> Filling<'a> {
             .collect();
         let mut vertices: Vec<DraftVertex> =
             self.sites.iter().map(|s| DraftVertex { point: s.point, normal: s.normal, uv: s.uv }).collect();
+        self.turn_pole_normals(&mut vertices, &triangles);
         self.split_normals(&mut vertices, &mut triangles);
         let first_own =
             self.sites.iter().filter(|s| s.point >= self.first_inner).map(|s| s.position).collect();
         (vertices, triangles, first_own)
+    }
+
+    /// At a pole that a surface runs on through, the normal is that of the side that the face is on.
+    fn turn_pole_normals(&self, vertices: &mut [DraftVertex], triangles: &[[u32; 3]]) {
+        for t in triangles.iter().filter(|t| t.iter().any(|&s| self.sites[s as usize].pole)) {
+            let centre = t.iter().map(|&s| self.sites[s as usize].uv).sum::<DVec2>() / 3.0;
+            for &corner in t.iter().filter(|&&s| self.sites[s as usize].pole) {
+                let inside = self.normal(self.sites[corner as usize].uv.lerp(centre, 1e-3));
+                let vertex = &mut vertices[corner as usize];
+                if inside.dot(vertex.normal) < 0.0 {
+                    vertex.normal = -vertex.normal;
+                }
+            }
+        }
     }
 
     /// On creases, gives each side vertices with its own normal.
@@ -335,6 +352,11 @@ impl<'a> Filling<'a> {
             }
         }
     }
+}
+
+/// Whether the domain has a side that is a single point.
+fn has_pole(domain: &TrimDomain) -> bool {
+    domain.loops.iter().any(|l| l.vertices.windows(2).any(|pair| pair[0].point == pair[1].point))
 }
 
 /// The strips along the domain's edges that lie off the surface.

@@ -64,12 +64,22 @@ struct Cell {
 /// A step in a direction without curvature is at most this many times as long as one across it.
 const MAX_ASPECT: f64 = 64.0;
 
+/// The same on a face with a pole: there, long triangles would fold over one another.
+const MAX_ASPECT_AT_POLES: f64 = 8.0;
+
 /// The same on free-form surfaces, where it also sets how far apart points lie.
 const FREE_FORM_ASPECT: f64 = 4.0;
 
 impl Warp {
     /// The warp for `surface` over `low`..`high`; at most `max_points` line crossings.
-    pub fn new(surface: &Surface, low: DVec2, high: DVec2, tolerance: Tolerance, max_points: usize) -> Self {
+    pub fn new(
+        surface: &Surface,
+        low: DVec2,
+        high: DVec2,
+        tolerance: Tolerance,
+        max_points: usize,
+        has_pole: bool,
+    ) -> Self {
         let ranges = [widened(low.x, high.x), widened(low.y, high.y)];
         if let Surface::Plane { .. } = surface {
             let flat = |r: Interval| Axis::new(vec![r.start, r.end], &[1.0]);
@@ -90,7 +100,10 @@ impl Warp {
         let short_mm = [shortest(&cells[0]), shortest(&cells[1])];
         let axes = [0, 1].map(|k| {
             let across = short_mm[1 - k];
-            let steps: Vec<f64> = cells[k].iter().map(|c| c.metric_step(across)).collect();
+            let steps: Vec<f64> = cells[k]
+                .iter()
+                .map(|c| c.metric_step(across, if has_pole { MAX_ASPECT_AT_POLES } else { MAX_ASPECT }))
+                .collect();
             Axis::new(stations[k].clone(), &steps)
         });
         Self { axes, lines }
@@ -115,8 +128,8 @@ impl Cell {
     }
 
     /// The step to measure by, when the shortest step across is `across_mm` long.
-    fn metric_step(&self, across_mm: f64) -> f64 {
-        let limit = if across_mm.is_finite() { across_mm * MAX_ASPECT * self.per_mm } else { self.per_mm };
+    fn metric_step(&self, across_mm: f64, max_aspect: f64) -> f64 {
+        let limit = if across_mm.is_finite() { across_mm * max_aspect * self.per_mm } else { self.per_mm };
         self.step.min(limit).max(f64::MIN_POSITIVE)
     }
 }

@@ -450,10 +450,19 @@ impl Sampler<'_> {
                 .any(|share| above(share).abs() > self.tolerance.linear_mm)
     }
 
+    /// Whether the surface turns by more than `most` only at one of two feet, where it has a crease.
+    fn turns_at_its_end(&self, ground: &Ground, a: &Foot, b: &Foot, most: f64) -> bool {
+        let to = self.nearest_image(ground, b.uv, a.uv);
+        let [na, nb] = [1e-4, 1.0 - 1e-4].map(|share| ground.surface.normal(a.uv.lerp(to, share)));
+        matches!((na, nb), (Some(na), Some(nb)) if na.angle_between(nb) <= most)
+    }
+
     /// Whether the surface turns, or its parameters run, too far between two feet.
     fn turns(&self, ground: &Ground, a: &Foot, b: &Foot) -> bool {
+        let most = self.tolerance.angular_rad * 1.001;
         if let (Some(na), Some(nb)) = (a.normal, b.normal)
-            && na.angle_between(nb) > self.tolerance.angular_rad * 1.001
+            && na.angle_between(nb) > most
+            && !(ground.free_form && self.turns_at_its_end(ground, a, b, most))
         {
             return true;
         }

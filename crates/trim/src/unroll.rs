@@ -134,7 +134,13 @@ impl Unroller<'_> {
             Direction::V => (DVec2::X, DVec2::Y, self.periods[0], from.x, next.x, from.y),
             Direction::U => (-DVec2::Y, DVec2::X, self.periods[1], -from.y, -next.y, from.x),
         };
-        let upper = from_b < s.at;
+        // Round a closed profile the pole comes again with every turn.
+        let turn = match s.constant {
+            Direction::V => self.periods[1],
+            Direction::U => self.periods[0],
+        };
+        let at = turn.map_or(s.at, |turn| s.at + ((from_b - s.at) / turn).round() * turn);
+        let upper = from_b < at;
         let step = match period {
             Some(p) => pole_step(next_a - from_a, p, upper),
             None => next_a - from_a,
@@ -143,7 +149,7 @@ impl Unroller<'_> {
         let point = |k: usize| run[(k * run.len() / (pieces + 1)).min(run.len() - 1)].point;
         for k in 0..=pieces {
             let a = from_a + step * k as f64 / pieces as f64;
-            self.out.push(TrimVertex { uv: along * a + across * s.at, point: point(k) });
+            self.out.push(TrimVertex { uv: along * a + across * at, point: point(k) });
         }
         along * (from_a + step) + across * from_b
     }

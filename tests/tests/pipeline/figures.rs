@@ -91,7 +91,7 @@ fn boxes_and_centroids() {
             let measure = conversion.scene().measure();
             let (Some(bbox), true) = (reference.bbox_mm, measure.area_mm2 > 0.0) else { return Vec::new() };
             let [low, high] = bbox.map(DVec3::from);
-            let allowed = tolerance.place * high.distance(low);
+            let allowed = tolerance.place * high.distance(low) + 1.01 * reference.sloppy_mm;
             let mut lines = Vec::new();
             let [found_low, found_high] = measure.bbox_mm;
             let away = (found_low - low).abs().max((found_high - high).abs()).max_element();

@@ -331,7 +331,10 @@ def curve_bspline_part():
     whole = spline.pieces()[0].at
     pieces = [Piece(whole, a, b) for a, b in zip(breaks, breaks[1:])]
     arc = Segment(start, end, pieces, spline_writer(spline, "QUASI_UNIFORM_CURVE"))
-    return model, prism(model, "curve_bspline_part", [arc, straight(end, start)], 5.0)
+    # Straight back, the outline would cross itself.
+    below = [end, (end[0], -5.0), (start[0], -5.0), start]
+    sides = [straight(a, b) for a, b in zip(below, below[1:])]
+    return model, prism(model, "curve_bspline_part", [arc, *sides], 5.0)
 
 
 def cylinder_faces(model: StepModel, rim, seam=None):

@@ -72,8 +72,14 @@ pub(super) fn project_revolution(
         Some(out) => {
             let at = |radius: f64| profile.project(origin + axis * target.y + out * radius, hint_v);
             let (one, other) = (at(target.x), at(-target.x));
-            let t = if one.distance <= other.distance { one.t } else { other.t };
-            near_hint(t, hint_v, profile.period())
+            let [t, opposite] = [one.t, other.t].map(|t| near_hint(t, hint_v, profile.period()));
+            // A profile that is its own mirror image covers the surface twice: the hint says which sheet is meant.
+            let alike = (one.distance - other.distance).abs() <= 1e-9 * (target.length() + one.distance);
+            let nearer = match hint_v.filter(|hint| alike && hint.is_finite()) {
+                Some(hint) => (t - hint).abs() <= (opposite - hint).abs(),
+                None => alike || one.distance <= other.distance,
+            };
+            if nearer { t } else { opposite }
         }
         None => {
             let samples = || flattened(profile, point, |p| meridian.flatten(p));
