@@ -3,6 +3,7 @@
 mod appearance;
 mod deflection;
 mod figures;
+mod mask;
 mod repeatable;
 mod watertight;
 
