@@ -99,8 +99,13 @@ impl Triangulation {
         let index = self.len() as u32;
         let hint = spade::handles::FixedVertexHandle::from_index(hint as usize);
         let before = self.cdt.num_vertices();
-        self.cdt.insert_with_hint(Site { at: tame(at), index }, hint).ok()?;
-        (self.cdt.num_vertices() > before).then_some(index)
+        let vertex = self.cdt.insert_with_hint(Site { at: tame(at), index }, hint).ok()?;
+        if self.cdt.num_vertices() > before {
+            return Some(index);
+        }
+        // The vertex that was there already has taken the new one's data: it keeps its own number.
+        self.cdt.vertex_data_mut(vertex).index = vertex.index() as u32;
+        None
     }
 
     /// Per face of the triangulation (by index) whether it lies inside the domain.
@@ -196,4 +201,28 @@ fn segment_uses(polygons: &[Vec<DVec2>], site_of_corner: &[u32]) -> FxHashMap<(u
         first += n;
     }
     uses
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trimloop_geom::{Frame, Surface};
+    use trimloop_trim::{Tolerance, TrimLoop, TrimVertex};
+
+    #[test]
+    fn a_point_on_a_site_leaves_the_site_as_it_is() {
+        let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+        let vertex = |(k, &uv): (usize, &DVec2)| TrimVertex { uv, point: k as u32 };
+        let vertices = corners.iter().enumerate().map(vertex).collect();
+        let loops = vec![TrimLoop { vertices, turned: false }];
+        let domain = TrimDomain { loops, own_points: Vec::new(), own_base: 4, diagnostics: Vec::new() };
+        let surface = Surface::Plane { frame: Frame::WORLD };
+        let tolerance = Tolerance { linear_mm: 0.1, angular_rad: 0.3 };
+        let warp = Warp::new(&surface, DVec2::ZERO, DVec2::ONE, tolerance, 100, false);
+        let mut triangulation = Triangulation::new(&domain, &[], &warp).expect("a square");
+        assert_eq!(triangulation.insert(warp.map(DVec2::ONE), 0), None);
+        assert_eq!(triangulation.insert(warp.map(DVec2::splat(0.5)), 0), Some(4));
+        assert!(triangulation.triangles().all(|(_, sites)| sites.iter().all(|&site| site < 5)));
+        assert_eq!(triangulation.triangles().filter(|(_, sites)| sites.contains(&2)).count(), 2);
+    }
 }
