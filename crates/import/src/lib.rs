@@ -1,4 +1,4 @@
-//! What CAD file entities mean: STEP (AP203, AP214, AP242) to the exact model.
+//! What CAD file entities mean: STEP (AP203, AP214, AP242) and IGES (5.1 to 5.3) to the exact model.
 //!
 //! ```
 //! use trimloop_import::import_step;
@@ -30,12 +30,14 @@
 //! What is wrong with the file is repaired where that is possible and reported in any case; one bad entity costs
 //! at most its face.
 
+mod iges;
 mod sniff;
 mod step;
 
 use std::path::Path;
 
 use trimloop_brep::Model;
+use trimloop_iges::IgesFile;
 use trimloop_part21::{Exchange, ReadError, ReadOptions};
 
 pub use self::sniff::Format;
@@ -60,6 +62,9 @@ pub enum ImportError {
     /// The file could not be read as an exchange file.
     #[error(transparent)]
     Part21(#[from] ReadError),
+    /// The file could not be read as an IGES file.
+    #[error(transparent)]
+    Iges(#[from] trimloop_iges::ReadError),
     /// Nothing in it is geometry that can be shown.
     #[error("{0}")]
     Nothing(String),
@@ -70,11 +75,21 @@ pub enum ImportError {
 pub enum Parsed {
     /// ISO 10303-21.
     Step(Exchange),
+    /// IGES.
+    Iges(IgesFile),
 }
 
 impl Parsed {
     /// Reads a CAD file, whatever its format (by content, not by name).
     pub fn read(path: &Path, options: &ImportOptions) -> Result<Self, ImportError> {
+        if Format::of_file(path).map_err(ReadError::Io)? == Format::Iges {
+            let size = std::fs::metadata(path).map_err(ReadError::Io)?.len();
+            if size > options.max_unpacked_bytes {
+                return Err(ReadError::TooLarge { cap: options.max_unpacked_bytes }.into());
+            }
+            let bytes = std::fs::read(path).map_err(ReadError::Io)?;
+            return Ok(Self::Iges(IgesFile::parse(&bytes)?));
+        }
         let read = ReadOptions { max_bytes: options.max_unpacked_bytes, ..ReadOptions::default() };
         Ok(Self::Step(Exchange::read(path, &read)?))
     }
@@ -83,6 +98,7 @@ impl Parsed {
     pub fn import(&self) -> Result<Model, ImportError> {
         match self {
             Self::Step(exchange) => import_step(exchange),
+            Self::Iges(file) => import_iges(file),
         }
     }
 }
@@ -90,6 +106,11 @@ impl Parsed {
 /// The exact model of a CAD file: [`Parsed::read`], then [`Parsed::import`].
 pub fn read(path: &Path, options: &ImportOptions) -> Result<Model, ImportError> {
     Parsed::read(path, options)?.import()
+}
+
+/// The exact model of a parsed IGES file.
+pub fn import_iges(file: &IgesFile) -> Result<Model, ImportError> {
+    iges::import(file)
 }
 
 /// The exact model of a parsed STEP file.

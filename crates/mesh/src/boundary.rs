@@ -43,8 +43,12 @@ pub(crate) fn close(draft: &mut FaceDraft, required: &[[u32; 2]], shared: &[DVec
     }
     let missing = net.directed();
     let before = draft.triangles.len();
+    let mut known = FxHashMap::default();
+    if !missing.is_empty() {
+        known.extend(draft.vertices.iter().enumerate().rev().map(|(i, vertex)| (vertex.point, i as u32)));
+    }
     for ring in rings(&missing) {
-        fill(draft, &ring, shared);
+        fill(draft, &ring, shared, &mut known);
     }
     draft.triangles.len() - before
 }
@@ -85,21 +89,21 @@ fn take(next: &mut BTreeMap<u32, Vec<u32>>, at: u32) -> Option<u32> {
     to
 }
 
-fn fill(draft: &mut FaceDraft, ring: &[u32], shared: &[DVec3]) {
+/// `known` holds the first vertex at each point.
+fn fill(draft: &mut FaceDraft, ring: &[u32], shared: &[DVec3], known: &mut FxHashMap<u32, u32>) {
     let places: Vec<DVec3> = ring.iter().map(|&p| draft.position(p, shared)).collect();
     let triangles = ear_clipping::triangles(&places);
     let normal = ear_clipping::newell(&places).try_normalize().unwrap_or(DVec3::Z);
-    let vertices: Vec<u32> = ring.iter().map(|&p| vertex_of(draft, p, normal)).collect();
+    let vertices: Vec<u32> = ring.iter().map(|&p| vertex_of(draft, p, normal, known)).collect();
     draft.triangles.extend(triangles.into_iter().map(|t| t.map(|i| vertices[i])));
 }
 
 /// A vertex of the draft at `point`, an existing one where there is one.
-fn vertex_of(draft: &mut FaceDraft, point: u32, normal: DVec3) -> u32 {
-    let known = draft.vertices.iter().position(|v| v.point == point);
-    known.unwrap_or_else(|| {
+fn vertex_of(draft: &mut FaceDraft, point: u32, normal: DVec3, known: &mut FxHashMap<u32, u32>) -> u32 {
+    *known.entry(point).or_insert_with(|| {
         draft.vertices.push(DraftVertex { point, normal, uv: DVec2::ZERO });
-        draft.vertices.len() - 1
-    }) as u32
+        draft.vertices.len() as u32 - 1
+    })
 }
 
 #[cfg(test)]

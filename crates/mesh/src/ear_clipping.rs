@@ -3,8 +3,8 @@
 use glam::{DVec2, DVec3};
 use trimloop_trim::polygon::signed_area;
 
-/// Beyond this many corners a polygon is cut as a fan: ear clipping takes quadratic time.
-const MAX_CORNERS: usize = 3000;
+/// Beyond this many corners a polygon is cut as a fan: ear clipping takes cubic time.
+const MAX_CORNERS: usize = 500;
 
 /// Cuts a closed polygon into `points.len() - 2` triangles that use each of its sides once, in its direction, whatever
 /// its shape: by ears where it has them, seen along its mean normal.

@@ -58,6 +58,9 @@ impl FaceMesher<'_> {
         else {
             return self.span_loops(face, "its parameters are out of range".into());
         };
+        if filling.is_tangled() {
+            return self.span_loops(face, "its boundary crosses itself all over".into());
+        }
         if !matches!(surface, Surface::Plane { .. }) {
             filling.refine();
         }

@@ -158,10 +158,19 @@ impl<'a> Filling<'a> {
         self.triangulation.intact && !self.merged
     }
 
+    /// Whether the domain's boundary crosses itself so often that there is no telling what is inside.
+    pub fn is_tangled(&self) -> bool {
+        self.triangulation.is_tangled()
+    }
+
     /// Adds points until every inner edge and every triangle keeps the bounds.
     pub fn refine(&mut self) {
         let mut fresh = 0;
         for round in 0..=MAX_ROUNDS {
+            if self.triangulation.is_tangled() {
+                self.within_bounds = false;
+                return;
+            }
             let wanted = self.violations(fresh);
             if wanted.is_empty() {
                 return;

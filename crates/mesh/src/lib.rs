@@ -16,6 +16,7 @@ mod options;
 mod orientation;
 mod part_mesh;
 mod seeds;
+mod strips;
 mod topology;
 mod triangulation;
 mod warp;

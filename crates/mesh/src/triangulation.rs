@@ -6,6 +6,7 @@ use spade::handles::{FixedFaceHandle, InnerTag, PossiblyOuterTag};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 use trimloop_trim::TrimDomain;
 
+use crate::strips::Strips;
 use crate::warp::Warp;
 
 /// A vertex of the triangulation: its warped place and its index.
@@ -35,8 +36,11 @@ pub(crate) struct Triangulation {
     slits: FxHashSet<(u32, u32)>,
     /// Whether every boundary segment is an edge of the triangulation.
     pub intact: bool,
-    domain_polygons: Vec<Vec<DVec2>>,
+    domain: Strips,
 }
+
+/// Sides that triangles' middles may be held against in one go.
+const MAX_CROSSINGS: usize = 30_000_000;
 
 /// How far the plane is sheared before it is triangulated.
 const SHEAR: f64 = 1e-7;
@@ -81,7 +85,7 @@ impl Triangulation {
         let cdt = Cdt::try_bulk_load_cdt(sites, edges.clone(), |_| refused += 1).ok()?;
         let intact = refused == 0 && cdt.num_constraints() == edges.len();
         let slits = uses.into_iter().filter(|&(_, n)| n % 2 == 0).map(|(pair, _)| pair).collect();
-        Some(Self { cdt, site_of_corner, inner_is_new, slits, intact, domain_polygons: polygons })
+        Some(Self { cdt, site_of_corner, inner_is_new, slits, intact, domain: Strips::new(&polygons) })
     }
 
     /// Number of sites.
@@ -106,6 +110,12 @@ impl Triangulation {
         // The vertex that was there already has taken the new one's data: it keeps its own number.
         self.cdt.vertex_data_mut(vertex).index = vertex.index() as u32;
         None
+    }
+
+    /// Whether telling inside from outside takes too long to be done after every refinement: the domain's boundary
+    /// crosses itself, and runs to and fro.
+    pub fn is_tangled(&self) -> bool {
+        !self.intact && self.cdt.num_inner_faces().saturating_mul(self.domain.load()) > MAX_CROSSINGS
     }
 
     /// Per face of the triangulation (by index) whether it lies inside the domain.
@@ -164,8 +174,7 @@ impl Triangulation {
         for face in self.cdt.inner_faces() {
             let [a, b, c] = face.vertices().map(|v| v.data().at);
             let centre = (a + b + c) / 3.0;
-            let around = |p: &&Vec<DVec2>| trimloop_trim::polygon::contains(p.iter().copied(), centre);
-            inside[face.index()] = self.domain_polygons.iter().filter(around).count() % 2 == 1;
+            inside[face.index()] = self.domain.contain(centre);
         }
         inside
     }

@@ -25,7 +25,7 @@ mod product;
 mod reader;
 mod representation;
 mod seeds;
-mod sew;
+pub(crate) mod sew;
 mod shape_links;
 mod source;
 mod spline;

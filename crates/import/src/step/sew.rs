@@ -10,19 +10,11 @@ const REACHES_MM: [f64; 3] = [1e-6, 1e-3, 2e-2];
 
 /// Makes faces of a solid share the edges that coincide. Edges that two faces share already stay as they are.
 pub(crate) fn sew(part: &mut Part, diagnostics: &mut Diagnostics) {
-    let mut uses = vec![0u32; part.edges.len()];
     for index in 0..part.bodies.len() {
         if part.bodies[index].kind != BodyKind::Solid {
             continue;
         }
-        let mut sewn = 0;
-        for reach in REACHES_MM {
-            let free = free_edges(part, &part.bodies[index], &mut uses);
-            if free.len() < 2 {
-                break;
-            }
-            sewn += sew_edges(part, index, &free, reach);
-        }
+        let sewn = sew_body(part, index, &REACHES_MM);
         if sewn > 0 {
             let entity = part.bodies[index].entity;
             let message = format!("{sewn} edges of solid {entity} that lie on others were joined with them.");
@@ -31,8 +23,23 @@ pub(crate) fn sew(part: &mut Part, diagnostics: &mut Diagnostics) {
     }
 }
 
+/// Makes the faces of one body share the edges that coincide, within each reach in turn, millimetres; gives how many
+/// edges went.
+pub(crate) fn sew_body(part: &mut Part, index: usize, reaches_mm: &[f64]) -> usize {
+    let mut uses = vec![0u32; part.edges.len()];
+    let mut sewn = 0;
+    for &reach in reaches_mm {
+        let free = free_edges(part, &part.bodies[index], &mut uses);
+        if free.len() < 2 {
+            break;
+        }
+        sewn += sew_edges(part, index, &free, reach);
+    }
+    sewn
+}
+
 /// The edges that the body's faces use once in all, in order. `uses` is all zero before and after.
-fn free_edges(part: &Part, body: &Body, uses: &mut [u32]) -> Vec<EdgeId> {
+pub(crate) fn free_edges(part: &Part, body: &Body, uses: &mut [u32]) -> Vec<EdgeId> {
     let mut used: Vec<EdgeId> = Vec::new();
     for edge in edges_of(part, body) {
         uses[edge as usize] += 1;
