@@ -210,7 +210,7 @@ fn domain_of(surface: &Surface) -> Option<[Interval; 2]> {
 /// The cylinder, cone or plane that a line makes when it is revolved.
 fn elementary(surface: &Surface) -> Option<Surface> {
     let Surface::Revolution { profile, origin, axis } = surface else { return None };
-    let Curve::Line { origin: start, direction } = **profile else { return None };
+    let (start, direction) = straight(profile)?;
     let out = |p: DVec3| p - *axis * p.dot(*axis);
     let along = direction.try_normalize()?;
     let (height, across) = (along.dot(*axis), out(along));
@@ -232,6 +232,24 @@ fn elementary(surface: &Surface) -> Option<Surface> {
     let widens = across.dot(from).signum() * height.signum();
     let half_angle_rad = across.length().atan2(height.abs());
     Some(Surface::Cone { frame: frame(*axis * widens, start), radius: from.length(), half_angle_rad })
+}
+
+/// A point and the direction of a curve that is straight.
+fn straight(curve: &Curve) -> Option<(DVec3, DVec3)> {
+    match curve {
+        Curve::Line { origin, direction } => Some((*origin, *direction)),
+        Curve::Nurbs(nurbs) => {
+            let (first, last) = (*nurbs.points().first()?, *nurbs.points().last()?);
+            let along = (last - first).try_normalize()?;
+            let off = |p: &DVec3| (*p - first).reject_from_normalized(along).length();
+            let near = 1e-12 * first.distance(last).max(first.length());
+            nurbs.points().iter().all(|p| off(p) <= near).then_some((first, last - first))
+        }
+        Curve::Polyline(polyline) if polyline.points.len() == 2 => {
+            Some((polyline.points[0], polyline.points[1] - polyline.points[0]))
+        }
+        _ => None,
+    }
 }
 
 /// The knots of `other` that `knots` lacks, as often as it lacks them.
