@@ -49,7 +49,7 @@ pub struct Source {
 }
 
 /// A node of the instance tree: one use of a product.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Node {
     /// The product's name as people see it, else its id.
     pub name: String,

@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::io::sink;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 use trimloop_brep::{EntityRef, Face, FaceGeometry, Facets, Model, Node, Part};
 use trimloop_gltf::{GltfOptions, write_glb};
 use trimloop_mesh::{FaceMesh, FaceStatus, FaceVertex, PartMesh};
@@ -55,17 +55,7 @@ fn torus() -> (Model, PartMesh) {
         color: None,
         hidden: false,
     };
-    let node = Node {
-        name: "torus".to_owned(),
-        id: String::new(),
-        instance_name: None,
-        entity: EntityRef::None,
-        transform: DAffine3::IDENTITY,
-        part: Some(0),
-        children: Vec::new(),
-        color: None,
-        hidden: false,
-    };
+    let node = Node { name: "torus".to_owned(), part: Some(0), ..Node::default() };
     let part = Part { faces: vec![face; FACES as usize], ..Part::default() };
     let model = Model { parts: vec![part], nodes: vec![node], roots: vec![0], ..Model::default() };
     let positions = (0..ROUND[0]).flat_map(|i| (0..ROUND[1]).map(move |j| point(i, j).0)).collect();

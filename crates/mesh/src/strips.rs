@@ -9,8 +9,6 @@ pub(crate) struct Strips {
     strips: Vec<Vec<[DVec2; 2]>>,
 }
 
-/// Strips for each side.
-const STRIPS_PER_SIDE: f64 = 1.0;
 /// Sides in strips, for each side: long ones run through many.
 const MAX_SHARE: usize = 32;
 
@@ -23,9 +21,8 @@ impl Strips {
         let high = sides().map(|side| side[0].y).fold(f64::NEG_INFINITY, f64::max);
         // As many strips as there are sides, unless long sides would then fill too many of them.
         let rise: f64 = sides().map(|[a, b]| (b.y - a.y).abs()).sum::<f64>() / (high - low);
-        let fair = count as f64 * STRIPS_PER_SIDE;
         let most = (count * MAX_SHARE) as f64 / rise.max(1.0);
-        let strip_count = fair.min(most).max(1.0) as usize;
+        let strip_count = most.min(count as f64).max(1.0) as usize;
         let height = (high - low) / strip_count as f64;
         let per_strip = if height > 0.0 && height.is_finite() { height.recip() } else { 0.0 };
         let mut out = Self { low, per_strip, strips: vec![Vec::new(); strip_count] };

@@ -8,7 +8,6 @@ mod surface;
 
 use std::collections::BTreeMap;
 
-use glam::DAffine3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use trimloop_brep::{
     Body, BodyKind, Diagnostic, Diagnostics, EdgeId, EntityRef, FaceId, Model, Node, Part, Severity, Shell,
@@ -42,17 +41,7 @@ pub(crate) fn import(file: &IgesFile) -> Result<Model, ImportError> {
             file.len()
         )));
     }
-    let node = Node {
-        name,
-        id: String::new(),
-        instance_name: None,
-        entity: EntityRef::None,
-        transform: DAffine3::IDENTITY,
-        part: Some(0),
-        children: Vec::new(),
-        color: None,
-        hidden: false,
-    };
+    let node = Node { name, part: Some(0), ..Node::default() };
     Ok(Model { source: source(file), parts: vec![part], nodes: vec![node], roots: vec![0], diagnostics })
 }
 

@@ -138,13 +138,12 @@ impl ShapeBuilder<'_> {
                 let mut out = Vec::new();
                 for _ in 0..parameters.count(3)? {
                     let in_model = parameters.pointer()?;
-                    let turned = parameters.integer()? == 2;
+                    // Whether the curve is turned: the chain is put in order by its ends all the same.
+                    parameters.integer()?;
                     let in_plane = (0..parameters.count(1)?).map(|_| parameters.pointer());
                     let in_plane = in_plane.collect::<Outcome<Vec<u32>>>()?;
                     let pieces =
                         self.either(&parameters, in_model, &in_plane, prefers_plane, ground, surface)?;
-                    // The chain is put in order by its ends; a turned curve needs no more than that.
-                    let _ = turned;
                     out.extend(pieces);
                 }
                 Ok(out)
@@ -192,13 +191,14 @@ impl ShapeBuilder<'_> {
         let entity = EntityRef::Iges(entry);
         let pieces: Vec<Piece> = pieces.into_iter().filter(|piece| !is_point(piece)).collect();
         let turned = directions(&pieces);
-        let Some(first) = pieces.first() else { return Err(Fault::new(entry, "is a boundary of no length")) };
+        if pieces.is_empty() {
+            return Err(Fault::new(entry, "is a boundary of no length"));
+        }
         let vertices: Vec<VertexId> = pieces
             .iter()
             .zip(&turned)
             .map(|(piece, &turned)| self.vertex(piece.ends()[usize::from(turned)], entity))
             .collect();
-        let _ = first;
         let mut coedges = Vec::with_capacity(pieces.len());
         for (k, (piece, &turned)) in pieces.into_iter().zip(&turned).enumerate() {
             let (from, to) = (vertices[k], vertices[(k + 1) % vertices.len()]);
