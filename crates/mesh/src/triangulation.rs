@@ -42,20 +42,23 @@ pub(crate) struct Triangulation {
 /// Sides that triangles' middles may be held against in one go.
 const MAX_CROSSINGS: usize = 30_000_000;
 
-/// How far the plane is sheared before it is triangulated.
+/// How far the plane is sheared and flattened before it is triangulated.
 const SHEAR: f64 = 1e-7;
+const FLATTENING: f64 = 1.0 - 1e-10;
 
 /// A warped point as the triangulation takes it. The shear decides between the two equally good diagonals of a
-/// rectangle, always for the one that rises with both parameters (as OpenCASCADE does); coordinates that are very small
-/// but not zero are refused by spade.
+/// rectangle, always for the one that rises with both parameters, the flattening between those of a square that stands
+/// on a corner, for the one along the second parameter (as OpenCASCADE mostly does); coordinates that are very small but
+/// not zero are refused by spade.
 fn tame(p: DVec2) -> DVec2 {
     let f = |x: f64| if x.abs() < 1e-40 { 0.0 } else { x };
-    DVec2::new(f(p.x - SHEAR * p.y), f(p.y))
+    DVec2::new(f(p.x - SHEAR * p.y), f(p.y * FLATTENING))
 }
 
 /// The warped point of a triangulated one.
 fn untame(p: DVec2) -> DVec2 {
-    DVec2::new(p.x + SHEAR * p.y, p.y)
+    let y = p.y / FLATTENING;
+    DVec2::new(p.x + SHEAR * y, y)
 }
 
 impl Triangulation {

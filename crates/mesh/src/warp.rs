@@ -247,6 +247,9 @@ fn limit_lengths(
     let shortest = |cells: &[Cell]| cells.iter().map(|c| c.step / c.per_mm).fold(f64::INFINITY, f64::min);
     let across_mm = [shortest(&cells[1]), shortest(&cells[0])];
     for k in 0..2 {
+        if is_conic_spline(surface) && is_ruling(&cells[k]) {
+            continue;
+        }
         let ends = [stations[k].first(), stations[k].last()].map(|e| e.copied().unwrap_or(0.0));
         let piece = (ends[1] - ends[0]) / pieces_at_least(surface, k);
         for cell in &mut cells[k] {
@@ -255,6 +258,17 @@ fn limit_lengths(
         }
     }
     cells
+}
+
+/// Whether a surface is a cylinder or a cone written as a rational spline, as many exporters do: it is to be meshed as
+/// those are, whose rulings have no limit.
+fn is_conic_spline(surface: &Surface) -> bool {
+    matches!(surface, Surface::Nurbs(nurbs) if !nurbs.weights().is_empty() && nurbs.degrees().contains(&1))
+}
+
+/// Whether nothing bends or turns along a direction.
+fn is_ruling(cells: &[Cell]) -> bool {
+    cells.iter().all(|cell| cell.step.is_infinite())
 }
 
 fn wanted_lines(stations: &[f64], cells: &[Cell]) -> f64 {
