@@ -13,12 +13,14 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import broken  # noqa: E402,F401  (registers the broken files)
 import hand  # noqa: E402,F401  (registers the hand-written files)
+import iges  # noqa: E402,F401  (registers the hand-written IGES files)
 import models  # noqa: E402,F401  (registers the fixtures)
 from catalogue import FIXTURES, HAND, Fixture, HandWritten  # noqa: E402
 
 from broken.expected import write_all as write_broken  # noqa: E402
 from exact import bounding_box, faces  # noqa: E402
 from freecad_run import make_all as make_freecad  # noqa: E402
+from iges_in import seen_in_iges  # noqa: E402
 from mesh_out import write_meshes  # noqa: E402
 from readme import write_tables  # noqa: E402
 from reference import (  # noqa: E402
@@ -103,6 +105,8 @@ def make_hand(fixture: HandWritten) -> list[str]:
 
 def seen_otherwise(reference: dict, step: Path) -> list[str]:
     """Where OpenCASCADE's figures of a file are not the reference's."""
+    if step.suffix == ".igs":
+        return seen_in_iges(reference, step)
     if step.suffix != ".step":
         return []
     try:

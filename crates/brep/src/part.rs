@@ -33,6 +33,8 @@ pub struct Part {
     pub vertices: Vec<Vertex>,
     /// Curves that bound no face.
     pub curves: Vec<FreeCurve>,
+    /// Points that are no vertices.
+    pub points: Vec<FreePoint>,
     /// Coordinates of tessellated faces ([`Facets::triangles`] index into it).
     pub facet_points: Vec<DVec3>,
     /// The accuracy that the file states for this part's geometry, millimetres (0 when it states none).
@@ -187,6 +189,17 @@ pub struct FreeCurve {
     pub curve: Arc<Curve>,
     /// The part that is used; finite.
     pub range: Interval,
+    /// Its colour.
+    pub color: Option<Rgba>,
+}
+
+/// A point that is no vertex.
+#[derive(Clone, Copy, Debug)]
+pub struct FreePoint {
+    /// The entity it comes from.
+    pub entity: EntityRef,
+    /// Where it is.
+    pub point: DVec3,
     /// Its colour.
     pub color: Option<Rgba>,
 }

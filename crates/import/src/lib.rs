@@ -31,7 +31,10 @@
 //! at most its face.
 
 mod iges;
+mod parallel;
+mod sew;
 mod sniff;
+mod split;
 mod step;
 
 use std::path::Path;

@@ -27,7 +27,7 @@ pub use part_mesh::{CurveLine, EdgeLine, FaceMesh, FaceStatus, FaceVertex, PartM
 
 use glam::DVec3;
 use rayon::prelude::*;
-use trimloop_brep::{Diagnostic, FaceGeometry, Part, Severity};
+use trimloop_brep::{Diagnostic, FaceGeometry, FreePoint, Part, Severity};
 use trimloop_geom::Aabb;
 use trimloop_trim::{EdgeSamples, Tolerance, sample_curve, sample_edges};
 
@@ -64,7 +64,19 @@ pub fn mesh_part(part: &Part, options: &MeshOptions, monitor: &dyn Monitor) -> R
     mesh.curves =
         part.curves.iter().map(|c| CurveLine { points: line(c, tolerance), color: c.color }).collect();
     mesh.curves.retain(|c| c.points.len() > 1);
+    mesh.curves.extend(part.points.iter().flat_map(|point| cross(point, POINT_SHARE * size_mm(part))));
     Ok(mesh)
+}
+
+/// A point is shown as a cross whose arms are this share of the part's size.
+const POINT_SHARE: f64 = 0.005;
+
+/// Three lines through a point, along the axes.
+fn cross(point: &FreePoint, arm: f64) -> [CurveLine; 3] {
+    [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| CurveLine {
+        points: vec![point.point - axis * arm, point.point + axis * arm],
+        color: point.color,
+    })
 }
 
 fn line(curve: &trimloop_brep::FreeCurve, tolerance: Tolerance) -> Vec<DVec3> {
@@ -100,6 +112,7 @@ fn size_mm(part: &Part) -> f64 {
     for curve in &part.curves {
         bounds = bounds.union(curve.curve.bounds(curve.range));
     }
+    bounds = bounds.union(Aabb::from_points(part.points.iter().map(|point| point.point)));
     let size = bounds.diagonal();
     if size.is_finite() && size > 0.0 { size } else { 1.0 }
 }

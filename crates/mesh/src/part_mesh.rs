@@ -13,7 +13,7 @@ pub struct PartMesh {
     pub faces: Vec<FaceMesh>,
     /// The edges of the part that bound a face, as indices into `positions`.
     pub edges: Vec<EdgeLine>,
-    /// The part's free curves.
+    /// The part's free curves; a free point is three short lines.
     pub curves: Vec<CurveLine>,
     /// One per shell of the part, bodies in order.
     pub shells: Vec<ShellTopology>,

@@ -20,8 +20,31 @@ pub(crate) struct Piece {
 pub(crate) const CURVES: [i32; 8] = [100, 102, 104, 106, 110, 112, 126, 130];
 
 impl Piece {
-    fn placed(self, map: &DAffine3) -> Self {
+    /// The piece moved.
+    pub fn placed(&self, map: &DAffine3) -> Self {
         Self { curve: self.curve.transformed(map), range: self.range }
+    }
+
+    /// The piece run the other way.
+    pub fn reversed(&self) -> Self {
+        let Self { curve, range } = self;
+        let back = Interval::new(-range.end, -range.start);
+        let over = |frame: &Frame| Frame::new(frame.origin, -frame.z, frame.x);
+        let (curve, range) = match curve {
+            Curve::Line { origin, direction } => {
+                (Curve::Line { origin: *origin, direction: -*direction }, back)
+            }
+            Curve::Circle { frame, radius } => (Curve::Circle { frame: over(frame), radius: *radius }, back),
+            Curve::Ellipse { frame, major, minor } => {
+                (Curve::Ellipse { frame: over(frame), major: *major, minor: *minor }, back)
+            }
+            _ => {
+                let segment = CompositeSegment { curve: curve.clone(), range: *range, reversed: true };
+                let curve = Curve::Composite(CompositeCurve { segments: vec![segment] });
+                (curve, Interval::new(0.0, 1.0))
+            }
+        };
+        Self { curve, range }
     }
 
     /// Its ends.
@@ -31,6 +54,17 @@ impl Piece {
 }
 
 impl Reader<'_> {
+    /// Points that are no line, millimetres: a point (116), or copious data of the forms 1 to 3 (106).
+    pub fn free_points(&self, entry: u32) -> Outcome<Vec<DVec3>> {
+        let mut parameters = self.parameters(entry)?;
+        let map = self.placement(parameters.directory)?;
+        let points = match parameters.directory.entity_type {
+            106 => listed_points(&mut parameters)?,
+            _ => vec![parameters.point()?],
+        };
+        Ok(points.into_iter().map(|point| map.transform_point3(point)).collect())
+    }
+
     /// A curve in the model, millimetres, as the pieces that it is put together from.
     pub fn curve(&self, entry: u32) -> Outcome<Vec<Piece>> {
         let mut out = Vec::new();
@@ -65,7 +99,7 @@ impl Reader<'_> {
                     // The parts are in millimetres already: the composite's own placement is in units.
                     let unit = DAffine3::from_scale(DVec3::splat(self.unit_mm));
                     let own = map * unit.inverse();
-                    out[before..].iter_mut().for_each(|piece| *piece = piece.clone().placed(&own));
+                    out[before..].iter_mut().for_each(|piece| *piece = piece.placed(&own));
                 }
                 return Ok(());
             }
@@ -152,18 +186,7 @@ fn copious(parameters: &mut Parameters<'_>) -> Outcome<Piece> {
     if !matches!(form, 11..=13 | 63) {
         return Err(parameters.fault(format!("form {form} is no curve")));
     }
-    let kind = parameters.integer()?;
-    let count = parameters.count(2)?;
-    let mut points = match kind {
-        1 => {
-            let z = parameters.real()?;
-            let flat = parameters.reals(2 * count)?;
-            flat.chunks_exact(2).map(|p| DVec3::new(p[0], p[1], z)).collect()
-        }
-        2 => parameters.points(count)?,
-        3 => parameters.reals(6 * count)?.chunks_exact(6).map(DVec3::from_slice).collect(),
-        _ => return Err(parameters.fault(format!("has points of the unknown kind {kind}"))),
-    };
+    let mut points = listed_points(parameters)?;
     if form == 63 && points.first() != points.last() {
         points.extend(points.first().copied());
     }
@@ -173,6 +196,22 @@ fn copious(parameters: &mut Parameters<'_>) -> Outcome<Piece> {
     let polyline = Polyline { points };
     let range = polyline.domain();
     Ok(Piece { curve: Curve::Polyline(polyline), range })
+}
+
+/// The points of copious data; vectors that go with them are left out.
+fn listed_points(parameters: &mut Parameters<'_>) -> Outcome<Vec<DVec3>> {
+    let kind = parameters.integer()?;
+    let count = parameters.count(2)?;
+    match kind {
+        1 => {
+            let z = parameters.real()?;
+            let flat = parameters.reals(2 * count)?;
+            Ok(flat.chunks_exact(2).map(|p| DVec3::new(p[0], p[1], z)).collect())
+        }
+        2 => parameters.points(count),
+        3 => Ok(parameters.reals(6 * count)?.chunks_exact(6).map(DVec3::from_slice).collect()),
+        _ => Err(parameters.fault(format!("has points of the unknown kind {kind}"))),
+    }
 }
 
 /// Type 126.

@@ -53,6 +53,18 @@ impl<'f> Reader<'f> {
         Ok(scale * self.transformation(directory.transformation)?)
     }
 
+    /// Where an entity's own coordinates lie, both in millimetres.
+    pub fn placement_mm(&self, directory: &DirectoryEntry) -> Outcome<DAffine3> {
+        self.matrix_mm(directory.transformation)
+    }
+
+    /// A transformation (0 for none) between millimetres.
+    pub fn matrix_mm(&self, entry: u32) -> Outcome<DAffine3> {
+        let mut map = self.transformation(entry)?;
+        map.translation *= self.unit_mm;
+        Ok(map)
+    }
+
     /// A transformation and those that it refers to in turn.
     fn transformation(&self, mut entry: u32) -> Outcome<DAffine3> {
         let mut map = DAffine3::IDENTITY;

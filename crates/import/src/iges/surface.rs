@@ -1,6 +1,6 @@
 //! Surfaces (IGES 5.3 sections 4.12 to 4.17, 4.25, 4.29, 4.39 to 4.45).
 
-use glam::{DAffine3, DMat3, DVec3, DVec4};
+use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
 use trimloop_geom::{Curve, Frame, Interval, NurbsCurve, NurbsSurface, Surface};
 
 use super::curve::{Piece, bezier_knots, joined};
@@ -65,6 +65,9 @@ impl Reader<'_> {
             _ => return Err(parameters.fault("is no surface that can be read")),
         };
         let (surface, turned) = ground.surface.transformed(&map);
+        let unit = |axis: DVec2| ground.surface.transformed_uv(&map, axis);
+        let scale = DVec3::new(unit(DVec2::X).x, unit(DVec2::Y).y, 1.0);
+        ground.parameters = DAffine3::from_scale(scale) * ground.parameters;
         ground.surface = surface;
         ground.reversed ^= turned && map.matrix3.determinant() > 0.0;
         Ok(ground)
@@ -148,8 +151,8 @@ impl Reader<'_> {
         let unscaled = Reader { unit_mm: 1.0, ..*self };
         let mut ground = unscaled.surface_within(basis, depth + 1)?;
         let middle = match ground.domain.or_else(|| domain_of(&ground.surface)) {
-            Some([u, v]) => ground.surface.normal(glam::DVec2::new(u.at(0.5), v.at(0.5))),
-            None => ground.surface.normal(glam::DVec2::ZERO),
+            Some([u, v]) => ground.surface.normal(DVec2::new(u.at(0.5), v.at(0.5))),
+            None => ground.surface.normal(DVec2::ZERO),
         };
         // The indicator says which side is meant; the basis' own normal may be on the other one.
         let turned = middle.is_some_and(|normal| normal.dot(indicator) < 0.0);
@@ -196,7 +199,14 @@ impl Reader<'_> {
         if !sound {
             return Err(parameters.fault("has a radius or an angle that cannot be"));
         }
-        Ok(Ground::whole(surface))
+        // Angles among the parameters are in degrees.
+        let degree = 1f64.to_radians();
+        let factors = match kind {
+            190 => DVec3::ONE,
+            192 | 194 => DVec3::new(degree, 1.0, 1.0),
+            _ => DVec3::new(degree, degree, 1.0),
+        };
+        Ok(Ground { parameters: DAffine3::from_scale(factors), ..Ground::whole(surface) })
     }
 }
 
@@ -208,7 +218,7 @@ fn domain_of(surface: &Surface) -> Option<[Interval; 2]> {
 }
 
 /// The cylinder, cone or plane that a line makes when it is revolved.
-fn elementary(surface: &Surface) -> Option<Surface> {
+pub(crate) fn elementary(surface: &Surface) -> Option<Surface> {
     let Surface::Revolution { profile, origin, axis } = surface else { return None };
     let (start, direction) = straight(profile)?;
     let out = |p: DVec3| p - *axis * p.dot(*axis);

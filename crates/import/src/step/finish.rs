@@ -12,7 +12,7 @@ use super::chain::mend_loops;
 use super::edge_range::edge_range;
 use super::fault::{Fault, Outcome};
 use super::find_vertices::find_vertices;
-use super::parallel::map;
+use crate::parallel::map;
 use super::pcurve_hints::hints;
 use super::reader::{Budget, Reader};
 use super::seeds::{EdgeCurve, EdgeSeed, FaceSeed, FaceSurface, Seeds, VertexSeed};

@@ -17,7 +17,6 @@ mod keyword;
 mod layer;
 mod lone_surface;
 mod look;
-mod parallel;
 mod part_builder;
 mod pcurve_hints;
 mod placement;
@@ -25,7 +24,6 @@ mod product;
 mod reader;
 mod representation;
 mod seeds;
-pub(crate) mod sew;
 mod shape_links;
 mod source;
 mod spline;
@@ -63,7 +61,7 @@ pub(crate) fn import(exchange: &Exchange) -> Result<Model, ImportError> {
     if tree.plans.is_empty() {
         file.add_lone_items(&mut tree);
     }
-    let parts = parallel::map_each(&tree.plans, |plan| file.part(plan));
+    let parts = crate::parallel::map_each(&tree.plans, |plan| file.part(plan));
     let mut model = Model {
         source: source::source(&table, &file.units),
         nodes: tree.nodes,
@@ -199,7 +197,7 @@ impl<'t> File<'t> {
             color: look.surface,
             ..part
         };
-        sew::sew(&mut part, &mut diagnostics);
+        crate::sew::sew(&mut part, &mut diagnostics);
         (part, diagnostics)
     }
 }

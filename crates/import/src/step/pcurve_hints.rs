@@ -6,7 +6,7 @@ use trimloop_geom::{Curve, Surface};
 
 use super::fault::Outcome;
 use super::keyword::Kind;
-use super::parallel::map;
+use crate::parallel::map;
 use super::reader::{Budget, Reader};
 use super::seeds::{EdgeCurve, FaceSeed, FaceSurface, Seeds};
 use super::table::Table;

@@ -1,4 +1,4 @@
-//! Solids whose faces do not share their edges, though the edges lie on each other.
+//! Faces that do not share their edges, though the edges lie on each other.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -140,7 +140,7 @@ fn coincide(a: &Edge, b: &Edge, reach: f64) -> bool {
 }
 
 /// Where along an edge, as a share of its range, the point nearest to `point` lies.
-fn nearest_share(edge: &Edge, point: DVec3) -> Option<f64> {
+pub(crate) fn nearest_share(edge: &Edge, point: DVec3) -> Option<f64> {
     let mut t = edge.curve.project(point, None).t;
     if let Some(period) = edge.curve.period() {
         while t < edge.range.start {

@@ -1,0 +1,135 @@
+//! Loose faces sewn into bodies.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use trimloop_brep::{
+    Body, BodyKind, Diagnostic, Edge, EdgeId, EntityRef, FaceId, Part, Severity, Shell, ShellFace,
+};
+
+use super::look::levels_of;
+use super::shape::ShapeBuilder;
+use crate::sew::{free_edges, sew_body};
+use crate::split::split_edges;
+
+/// The least and the most that edges may lie apart to be one, millimetres, whatever the file states.
+const LEAST_REACH_MM: f64 = 2e-2;
+const MOST_REACH_MM: f64 = 0.1;
+
+impl ShapeBuilder<'_> {
+    /// Sews the faces that came one by one, and makes a body of each set that hangs together.
+    pub fn make_bodies(&mut self) {
+        let loose = std::mem::take(&mut self.loose);
+        if loose.is_empty() {
+            return;
+        }
+        sew(&mut self.part, &loose);
+        for faces in components(&self.part, &loose) {
+            let mut made = body(faces);
+            let mut uses = vec![0u32; self.part.edges.len()];
+            let open = free_edges(&self.part, &made, &mut uses);
+            let faces = made.shells[0].faces.clone();
+            let has_edges = |face: FaceId| !self.part.faces[face as usize].loops.is_empty();
+            if open.is_empty() && faces.iter().any(|it| has_edges(it.face)) {
+                made.kind = BodyKind::Solid;
+                made.shells[0].closed = true;
+            } else if faces.len() > 1 && !open.is_empty() {
+                let entity = self.part.faces[faces[0].face as usize].entity;
+                self.diagnostics.push(open_edges(&self.part, &open, faces.len(), entity));
+            }
+            let mut layers: Vec<String> = faces
+                .iter()
+                .flat_map(|it| match self.part.faces[it.face as usize].entity {
+                    EntityRef::Iges(entry) => levels_of(&self.reader, entry),
+                    _ => Vec::new(),
+                })
+                .collect();
+            layers.sort_unstable();
+            layers.dedup();
+            made.layers = layers;
+            self.part.bodies.push(made);
+        }
+    }
+}
+
+/// Makes the faces share the edges that coincide, whole or in part.
+fn sew(part: &mut Part, faces: &[FaceId]) {
+    part.bodies.push(body(faces.to_vec()));
+    let index = part.bodies.len() - 1;
+    let widest = part.uncertainty_mm.clamp(LEAST_REACH_MM, MOST_REACH_MM);
+    let reaches = [1e-6, 1e-3, widest];
+    sew_body(part, index, &reaches);
+    let mut uses = vec![0u32; part.edges.len()];
+    let free = free_edges(part, &part.bodies[index], &mut uses);
+    if free.len() > 1 && split_edges(part, faces, &free, widest) > 0 {
+        sew_body(part, index, &reaches);
+    }
+    part.bodies.pop();
+}
+
+fn body(faces: Vec<FaceId>) -> Body {
+    let faces = faces.into_iter().map(|face| ShellFace { face, reversed: false }).collect();
+    let shell = Shell { entity: EntityRef::None, closed: false, void: false, faces };
+    let (name, layers) = (String::new(), Vec::new());
+    Body { name, entity: EntityRef::None, kind: BodyKind::Sheet, shells: vec![shell], layers }
+}
+
+/// The sets of faces that share edges, in the file's order.
+fn components(part: &Part, faces: &[FaceId]) -> Vec<Vec<FaceId>> {
+    let mut group: Vec<usize> = (0..faces.len()).collect();
+    fn root(group: &mut [usize], mut at: usize) -> usize {
+        while group[at] != at {
+            group[at] = group[group[at]];
+            at = group[at];
+        }
+        at
+    }
+    let mut first_with: FxHashMap<EdgeId, usize> = FxHashMap::default();
+    for (k, &face) in faces.iter().enumerate() {
+        for coedge in part.faces[face as usize].loops.iter().flat_map(|bound| &bound.coedges) {
+            let other = *first_with.entry(coedge.edge).or_insert(k);
+            let (a, b) = (root(&mut group, k), root(&mut group, other));
+            group[a.max(b)] = a.min(b);
+        }
+    }
+    let mut sets: BTreeMap<usize, Vec<FaceId>> = BTreeMap::new();
+    for (k, &face) in faces.iter().enumerate() {
+        sets.entry(root(&mut group, k)).or_default().push(face);
+    }
+    sets.into_values().collect()
+}
+
+/// More open edges than this are not held against each other.
+const MAX_COMPARED: usize = 2000;
+
+/// What is to be said of faces that hang together and do not close.
+fn open_edges(part: &Part, open: &[EdgeId], faces: usize, entity: EntityRef) -> Diagnostic {
+    let mut message = format!(
+        "{} edges of the {faces} faces that hang together with {entity} have no neighbour",
+        open.len()
+    );
+    match nearest_gap_mm(part, open) {
+        Some(gap) => message += &format!("; the nearest two lie up to {gap:.3} mm apart."),
+        None => message.push('.'),
+    }
+    Diagnostic::new(Severity::Warning, "open-edges", entity, message)
+}
+
+/// How far apart the two open edges are that come nearest to being one.
+fn nearest_gap_mm(part: &Part, open: &[EdgeId]) -> Option<f64> {
+    if open.len() > MAX_COMPARED {
+        return None;
+    }
+    let samples = |edge: &Edge| -> [DVec3; 3] {
+        [0.0, 0.5, 1.0].map(|share| edge.curve.point(edge.range.at(share)))
+    };
+    let sampled: Vec<[DVec3; 3]> = open.iter().map(|&id| samples(&part.edges[id as usize])).collect();
+    let apart = |a: &[DVec3; 3], b: &[DVec3; 3]| {
+        let along = a[0].distance(b[0]).max(a[2].distance(b[2]));
+        let against = a[0].distance(b[2]).max(a[2].distance(b[0]));
+        along.min(against).max(a[1].distance(b[1]))
+    };
+    let gaps = sampled.iter().enumerate().flat_map(|(k, a)| sampled[k + 1..].iter().map(|b| apart(a, b)));
+    gaps.min_by(f64::total_cmp).filter(|gap| gap.is_finite())
+}

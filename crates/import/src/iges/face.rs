@@ -1,0 +1,219 @@
+//! Faces that came one by one: surfaces and their boundaries (IGES 5.3 sections 4.12, 4.31 to 4.34).
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use trimloop_geom::{Curve, Surface};
+
+use super::curve::Piece;
+use super::reader::{Fault, Outcome, Parameters, Reader};
+use super::surface::Ground;
+
+/// Reads faces; changes nothing, so that many can be read at once.
+#[derive(Clone, Copy)]
+pub(crate) struct FaceReader<'f> {
+    pub reader: Reader<'f>,
+    /// The accuracy that the file states.
+    pub uncertainty_mm: f64,
+}
+
+/// A face that has been read, and whose edges have no place in a part yet.
+#[derive(Clone, Debug)]
+pub(crate) struct FaceDraft {
+    pub surface: Arc<Surface>,
+    pub same_sense: bool,
+    pub bounds: Vec<BoundDraft>,
+}
+
+/// Curves end to end, and for each whether it is run backwards.
+#[derive(Clone, Debug)]
+pub(crate) struct BoundDraft {
+    pub entry: u32,
+    pub outer: bool,
+    pub pieces: Vec<(Piece, bool)>,
+}
+
+impl BoundDraft {
+    /// A loop of curves, each run in the direction that joins it to the one before.
+    fn new(pieces: Vec<Piece>, entry: u32, outer: bool) -> Outcome<Self> {
+        let pieces: Vec<Piece> = pieces.into_iter().filter(|piece| !is_point(piece)).collect();
+        if pieces.is_empty() {
+            return Err(Fault::new(entry, "is a boundary of no length"));
+        }
+        let turned = directions(&pieces);
+        Ok(Self { entry, outer, pieces: pieces.into_iter().zip(turned).collect() })
+    }
+}
+
+impl FaceReader<'_> {
+    /// Types 143, 144, or a surface without any trimming.
+    pub fn read(&self, entry: u32) -> Outcome<FaceDraft> {
+        let mut parameters = self.reader.parameters(entry)?;
+        match parameters.directory.entity_type {
+            144 => {
+                let surface = parameters.pointer()?;
+                let has_outer = parameters.integer()? != 0;
+                let inner = parameters.count(0)?;
+                let outer = parameters.pointer()?;
+                let mut boundaries = Vec::new();
+                if has_outer && outer != 0 {
+                    boundaries.push(outer);
+                }
+                for _ in 0..inner {
+                    boundaries.push(parameters.pointer()?);
+                }
+                self.trimmed(surface, &boundaries, has_outer)
+            }
+            143 => {
+                parameters.integer()?;
+                let surface = parameters.pointer()?;
+                let boundaries = (0..parameters.count(1)?).map(|_| parameters.pointer());
+                let boundaries = boundaries.collect::<Outcome<Vec<u32>>>()?;
+                self.trimmed(surface, &boundaries, true)
+            }
+            108 => {
+                parameters.reals(4)?;
+                let boundary = parameters.pointer()?;
+                if boundary == 0 {
+                    return Err(parameters.fault("is a plane without bounds"));
+                }
+                let ground = self.reader.surface(entry)?;
+                let surface = Arc::new(ground.surface);
+                let pieces = self.reader.curve(boundary)?;
+                let bounds = vec![BoundDraft::new(pieces, boundary, true)?];
+                Ok(FaceDraft { surface, same_sense: !ground.reversed, bounds })
+            }
+            _ => {
+                let ground = self.reader.surface(entry)?;
+                let surface =
+                    ground.untrimmed().ok_or_else(|| parameters.fault("never ends, and has no bounds"))?;
+                Ok(FaceDraft { surface: Arc::new(surface), same_sense: !ground.reversed, bounds: Vec::new() })
+            }
+        }
+    }
+
+    fn trimmed(&self, surface: u32, boundaries: &[u32], has_outer: bool) -> Outcome<FaceDraft> {
+        let ground = self.reader.surface(surface)?;
+        let exact = if has_outer {
+            ground.surface.clone()
+        } else {
+            ground.untrimmed().ok_or_else(|| Fault::new(surface, "never ends, and has no outer boundary"))?
+        };
+        let exact = Arc::new(exact);
+        let mut on_model = true;
+        let mut bounds = Vec::with_capacity(boundaries.len());
+        for (k, &boundary) in boundaries.iter().enumerate() {
+            let pieces = self.boundary(boundary, &ground, &exact)?;
+            on_model &= pieces.iter().all(|piece| !matches!(piece.curve, Curve::OnSurface { .. }));
+            bounds.push(BoundDraft::new(pieces, boundary, has_outer && k == 0)?);
+        }
+        let exact = if has_outer && on_model { Arc::new(ground.simplified()) } else { exact };
+        Ok(FaceDraft { surface: exact, same_sense: !ground.reversed, bounds })
+    }
+
+    /// The curves of a boundary (types 141 and 142), in the model or else on the surface.
+    fn boundary(&self, entry: u32, ground: &Ground, surface: &Arc<Surface>) -> Outcome<Vec<Piece>> {
+        let mut parameters = self.reader.parameters(entry)?;
+        match parameters.directory.entity_type {
+            142 => {
+                parameters.integer()?;
+                parameters.pointer()?;
+                let (in_plane, in_model) = (parameters.pointer()?, parameters.pointer()?);
+                let prefers_plane = parameters.integer()? == 1;
+                self.either(&parameters, in_model, &[in_plane], prefers_plane, ground, surface)
+            }
+            141 => {
+                parameters.integer()?;
+                let prefers_plane = parameters.integer()? == 2;
+                parameters.pointer()?;
+                let mut out = Vec::new();
+                for _ in 0..parameters.count(3)? {
+                    let in_model = parameters.pointer()?;
+                    // Whether the curve is turned: the chain is put in order by its ends all the same.
+                    parameters.integer()?;
+                    let in_plane = (0..parameters.count(1)?).map(|_| parameters.pointer());
+                    let in_plane = in_plane.collect::<Outcome<Vec<u32>>>()?;
+                    let pieces =
+                        self.either(&parameters, in_model, &in_plane, prefers_plane, ground, surface)?;
+                    out.extend(pieces);
+                }
+                Ok(out)
+            }
+            _ => self.reader.curve(entry),
+        }
+    }
+
+    /// The model curve where it is there and lies on the surface, else the one in the parameter plane.
+    fn either(
+        &self,
+        parameters: &Parameters<'_>,
+        in_model: u32,
+        in_plane: &[u32],
+        prefers_plane: bool,
+        ground: &Ground,
+        surface: &Arc<Surface>,
+    ) -> Outcome<Vec<Piece>> {
+        let model = match in_model {
+            0 => Err(parameters.fault("has no curve in the model")),
+            entry => self.reader.curve(entry),
+        };
+        let reach = self.uncertainty_mm.max(1e-3) * if prefers_plane { 1.0 } else { 100.0 };
+        if let Ok(pieces) = &model
+            && pieces.iter().all(|piece| lies_on(piece, surface, reach))
+        {
+            return model;
+        }
+        let mut out = Vec::new();
+        for &entry in in_plane.iter().filter(|&&entry| entry != 0) {
+            match self.reader.parameter_curve(entry) {
+                Ok(pieces) => out.extend(pieces.into_iter().map(|piece| {
+                    let pcurve = Arc::new(piece.curve.transformed(&ground.parameters));
+                    let curve = Curve::OnSurface { surface: surface.clone(), pcurve };
+                    Piece { curve, range: piece.range }
+                })),
+                Err(fault) => return model.map_err(|_| fault),
+            }
+        }
+        if out.is_empty() { model } else { Ok(out) }
+    }
+}
+
+/// Whether a curve lies within `reach` of a surface.
+fn lies_on(piece: &Piece, surface: &Surface, reach: f64) -> bool {
+    [0.0, 0.31, 0.72, 1.0].into_iter().all(|share| {
+        let point = piece.curve.point(piece.range.at(share));
+        surface.project(point, None).distance <= reach
+    })
+}
+
+/// Whether a piece is all at one point.
+fn is_point(piece: &Piece) -> bool {
+    let at = |share: f64| piece.curve.point(piece.range.at(share));
+    let start = at(0.0);
+    [0.37, 0.71, 1.0].into_iter().all(|share| at(share).distance(start) <= 1e-9 * (1.0 + start.length()))
+}
+
+/// Pieces end to end, each run in its own direction: those that run against it are turned over.
+pub(crate) fn chained(pieces: Vec<Piece>) -> Vec<Piece> {
+    let pieces: Vec<Piece> = pieces.into_iter().filter(|piece| !is_point(piece)).collect();
+    let turned = directions(&pieces);
+    pieces.into_iter().zip(turned).map(|(piece, turned)| if turned { piece.reversed() } else { piece }).collect()
+}
+
+/// Per piece whether the loop runs it backwards.
+fn directions(pieces: &[Piece]) -> Vec<bool> {
+    let ends: Vec<[DVec3; 2]> = pieces.iter().map(Piece::ends).collect();
+    let mut out = vec![false; pieces.len()];
+    if pieces.len() < 2 {
+        return out;
+    }
+    let nearest = |from: DVec3, to: &[DVec3; 2]| from.distance(to[0]).min(from.distance(to[1]));
+    // Where both of the first one's ends touch the second, it runs as it is written.
+    out[0] = nearest(ends[0][1], &ends[1]) > nearest(ends[0][0], &ends[1]) + 1e-9;
+    let mut at = ends[0][usize::from(!out[0])];
+    for k in 1..pieces.len() {
+        out[k] = at.distance(ends[k][1]) < at.distance(ends[k][0]) - 1e-9;
+        at = ends[k][usize::from(!out[k])];
+    }
+    out
+}

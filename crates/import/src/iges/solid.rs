@@ -1,0 +1,204 @@
+//! B-rep solids: shells, faces, loops and lists of edges and vertices (IGES 5.3 sections 4.47 and 4.137 to 4.141).
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use trimloop_brep::{
+    Body, BodyKind, Coedge, Edge, EntityRef, FaceGeometry, FaceId, Loop, Rgba, Severity, Shell, ShellFace, VertexId,
+};
+
+use super::curve::{Piece, joined};
+use super::look::{color_of, levels_of, name_of};
+use super::reader::{Fault, Outcome, Parameters, Reader};
+use super::shape::ShapeBuilder;
+
+impl ShapeBuilder<'_> {
+    /// Adds a solid (type 186) with its voids, or a shell of its own (type 514).
+    pub fn add_solid(&mut self, entry: u32, color: Option<Rgba>) {
+        let first = self.part.faces.len() as FaceId;
+        let solid = self.solid(entry, color);
+        self.hide_blanked(entry, first);
+        match solid {
+            Ok(body) => self.add_body(body),
+            Err(fault) => self.diagnostics.push(fault.diagnostic(Severity::Error, "shell-unreadable")),
+        }
+    }
+
+    fn solid(&mut self, entry: u32, color: Option<Rgba>) -> Outcome<Body> {
+        let mut parameters = self.reader.parameters(entry)?;
+        let name = name_of(&self.reader, entry).unwrap_or_default();
+        let is_solid = parameters.directory.entity_type == 186;
+        let mut shared = SharedEdges::default();
+        let mut shells = Vec::new();
+        if is_solid {
+            let outer = (parameters.pointer()?, parameters.integer()? != 0);
+            shells.push(self.shell(outer.0, !outer.1, false, color, &mut shared)?);
+            for _ in 0..parameters.count(2)? {
+                let (shell, agrees) = (parameters.pointer()?, parameters.integer()? != 0);
+                shells.push(self.shell(shell, !agrees, true, color, &mut shared)?);
+            }
+        } else {
+            shells.push(self.shell(entry, false, false, color, &mut shared)?);
+        }
+        let kind = if is_solid { BodyKind::Solid } else { BodyKind::Sheet };
+        let layers = levels_of(&self.reader, entry);
+        Ok(Body { name, entity: EntityRef::Iges(entry), kind, shells, layers })
+    }
+
+    /// Type 514.
+    fn shell(
+        &mut self,
+        entry: u32,
+        turned: bool,
+        void: bool,
+        color: Option<Rgba>,
+        shared: &mut SharedEdges,
+    ) -> Outcome<Shell> {
+        let mut parameters = self.reader.parameters(entry)?;
+        parameters.expect(&[514], "shell")?;
+        let closed = parameters.directory.form != 2;
+        let mut faces = Vec::new();
+        for _ in 0..parameters.count(2)? {
+            let (face, agrees) = (parameters.pointer()?, parameters.integer()? != 0);
+            let own = color_of(&self.reader, face).or(color);
+            let id = self.face(face, own, |builder| builder.shell_face(face, shared));
+            faces.push(ShellFace { face: id, reversed: agrees == turned });
+        }
+        Ok(Shell { entity: EntityRef::Iges(entry), closed, void, faces })
+    }
+
+    /// Type 510.
+    fn shell_face(
+        &mut self,
+        entry: u32,
+        shared: &mut SharedEdges,
+    ) -> Outcome<(FaceGeometry, bool, Vec<Loop>)> {
+        let mut parameters = self.reader.parameters(entry)?;
+        parameters.expect(&[510], "face")?;
+        let ground = self.reader.surface(parameters.pointer()?)?;
+        let count = parameters.count(1)?;
+        let has_outer = parameters.integer()? != 0;
+        let mut loops = Vec::with_capacity(count);
+        for k in 0..count {
+            let bound = parameters.pointer()?;
+            loops.push(self.edge_loop(bound, has_outer && k == 0, shared)?);
+        }
+        Ok((FaceGeometry::Surface(Arc::new(ground.surface)), !ground.reversed, loops))
+    }
+
+    /// Type 508.
+    fn edge_loop(&mut self, entry: u32, outer: bool, shared: &mut SharedEdges) -> Outcome<Loop> {
+        let mut parameters = self.reader.parameters(entry)?;
+        parameters.expect(&[508], "loop")?;
+        let mut bound = Loop { entity: EntityRef::Iges(entry), outer, ..Loop::default() };
+        for _ in 0..parameters.count(5)? {
+            let is_vertex = parameters.integer()? == 1;
+            let (list, index) = (parameters.pointer()?, parameters.integer()?);
+            let agrees = parameters.integer()? != 0;
+            for _ in 0..parameters.count(2)? {
+                parameters.integer()?;
+                parameters.pointer()?;
+            }
+            let number = u32::try_from(index).ok().filter(|number| *number > 0);
+            let number = number.ok_or_else(|| parameters.fault("names an edge by a number that is none"))?;
+            if is_vertex {
+                bound.vertex = Some(self.listed_vertex(list, number, shared)?);
+            } else {
+                let edge = self.listed_edge(list, number as usize - 1, shared)?;
+                bound.coedges.push(Coedge { edge, reversed: !agrees, pcurve: None });
+            }
+        }
+        if !bound.coedges.is_empty() {
+            bound.vertex = None;
+        }
+        Ok(bound)
+    }
+
+    /// An edge of a list (type 504).
+    fn listed_edge(&mut self, list: u32, index: usize, shared: &mut SharedEdges) -> Outcome<u32> {
+        if let Some(&known) = shared.edges.get(&(list, index)) {
+            return Ok(known);
+        }
+        let [curve, from, from_index, to, to_index] = self.lists.edge(&self.reader, list, index)?;
+        let start = self.listed_vertex(from, from_index, shared)?;
+        let end = self.listed_vertex(to, to_index, shared)?;
+        let pieces = self.reader.curve(curve)?;
+        let Piece { curve, range } = joined(pieces, &self.reader.parameters(curve)?)?;
+        // The curve may run the other way than the edge.
+        let point = |id: VertexId| self.part.vertices[id as usize].point;
+        let [first, last] = [curve.point(range.start), curve.point(range.end)];
+        let straight = first.distance(point(start)) + last.distance(point(end));
+        let crossed = first.distance(point(end)) + last.distance(point(start));
+        let same_sense = straight <= crossed;
+        let entity = EntityRef::Iges(list);
+        let edge = Edge { entity, start, end, curve: Arc::new(curve), range, same_sense };
+        self.part.edges.push(edge);
+        let id = (self.part.edges.len() - 1) as u32;
+        shared.edges.insert((list, index), id);
+        Ok(id)
+    }
+
+    /// A vertex of a list (type 502).
+    fn listed_vertex(&mut self, list: u32, index: u32, shared: &mut SharedEdges) -> Outcome<VertexId> {
+        if let Some(&known) = shared.vertices.get(&(list, index)) {
+            return Ok(known);
+        }
+        let point = self.lists.vertex(&self.reader, list, index)?;
+        let id = self.vertex(point, EntityRef::Iges(list));
+        shared.vertices.insert((list, index), id);
+        Ok(id)
+    }
+}
+
+/// Edges and vertices of lists that a body has already.
+#[derive(Default)]
+struct SharedEdges {
+    edges: FxHashMap<(u32, usize), u32>,
+    vertices: FxHashMap<(u32, u32), VertexId>,
+}
+
+/// Lists of edges and vertices that were read already.
+#[derive(Default)]
+pub(crate) struct Lists {
+    /// Per list and edge: the curve, and list and number of the first and the last vertex.
+    edges: FxHashMap<u32, Vec<[u32; 5]>>,
+    vertices: FxHashMap<u32, Vec<DVec3>>,
+}
+
+impl Lists {
+    fn edge(&mut self, reader: &Reader<'_>, list: u32, index: usize) -> Outcome<[u32; 5]> {
+        if !self.edges.contains_key(&list) {
+            let mut parameters = reader.parameters(list)?;
+            parameters.expect(&[504], "edge list")?;
+            let count = parameters.count(5)?;
+            let row = |parameters: &mut Parameters<'_>| -> Outcome<[u32; 5]> {
+                let mut row = [0; 5];
+                for value in &mut row {
+                    *value = parameters.pointer()?;
+                }
+                Ok(row)
+            };
+            let rows = (0..count).map(|_| row(&mut parameters)).collect::<Outcome<Vec<_>>>()?;
+            self.edges.insert(list, rows);
+        }
+        let edges = &self.edges[&list];
+        let missing = || Fault::new(list, format!("has {} edges, no number {}", edges.len(), index + 1));
+        edges.get(index).copied().ok_or_else(missing)
+    }
+
+    /// A vertex by its number, from 1.
+    fn vertex(&mut self, reader: &Reader<'_>, list: u32, number: u32) -> Outcome<DVec3> {
+        if !self.vertices.contains_key(&list) {
+            let mut parameters = reader.parameters(list)?;
+            parameters.expect(&[502], "vertex list")?;
+            let count = parameters.count(3)?;
+            let map = reader.placement(parameters.directory)?;
+            let points = parameters.points(count)?.into_iter().map(|point| map.transform_point3(point));
+            self.vertices.insert(list, points.collect());
+        }
+        let vertices = &self.vertices[&list];
+        let missing = || Fault::new(list, format!("has {} vertices, no number {number}", vertices.len()));
+        (number as usize).checked_sub(1).and_then(|index| vertices.get(index)).copied().ok_or_else(missing)
+    }
+}
