@@ -2,12 +2,11 @@
 
 use std::borrow::Cow;
 
+use memchr::memchr2;
 use nom::IResult;
 use nom::Parser;
-use nom::branch::alt;
-use nom::bytes::complete::{take, take_while, take_while1};
+use nom::bytes::complete::{take, take_while};
 use nom::character::complete::{one_of, u64 as count};
-use nom::combinator::{all_consuming, opt, recognize};
 
 use crate::Delimiters;
 
@@ -72,13 +71,12 @@ pub(crate) enum After {
 
 /// The next parameter, what ends it, and the text after that.
 pub(crate) fn next(text: &[u8], delimiters: Delimiters) -> (Value<'_>, After, &[u8]) {
-    let (value, rest) = match hollerith(text) {
-        Ok((rest, string)) => (Some(Value::Text(string)), rest),
-        Err(_) => (None, text),
+    let (string, rest) = match hollerith(text) {
+        Some((rest, string)) => (Some(string), rest),
+        None => (None, text),
     };
-    let is_end = |b: &u8| *b == delimiters.parameter || *b == delimiters.record;
-    let end = rest.iter().position(is_end).unwrap_or(rest.len());
-    let value = value.unwrap_or_else(|| plain(&rest[..end]));
+    let end = memchr2(delimiters.parameter, delimiters.record, rest).unwrap_or(rest.len());
+    let value = string.map_or_else(|| plain(&rest[..end]), Value::Text);
     match rest.get(end) {
         Some(b) if *b == delimiters.parameter => (value, After::Parameter, &rest[end + 1..]),
         Some(_) => (value, After::RecordEnd, &rest[end + 1..]),
@@ -86,11 +84,17 @@ pub(crate) fn next(text: &[u8], delimiters: Delimiters) -> (Value<'_>, After, &[
     }
 }
 
-/// `nH` and n bytes; fewer where the text ends before.
-fn hollerith(text: &[u8]) -> IResult<&[u8], &[u8]> {
-    let (rest, (_, length, _)) = (take_while(blank), count, one_of("Hh")).parse(text)?;
+/// `nH` and n bytes, and what follows; fewer bytes where the text ends before. Looks twice only where there is an H.
+fn hollerith(text: &[u8]) -> Option<(&[u8], &[u8])> {
+    let mark = text.iter().position(|b| !b.is_ascii_digit() && *b != b' ')?;
+    if !matches!(text[mark], b'H' | b'h') {
+        return None;
+    }
+    let counted: IResult<&[u8], _> = (take_while(blank), count, one_of("Hh")).parse(text);
+    let (rest, (_, length, _)) = counted.ok()?;
     let length = usize::try_from(length).unwrap_or(usize::MAX).min(rest.len());
-    take(length).parse(rest)
+    let string: IResult<&[u8], &[u8]> = take(length).parse(rest);
+    string.ok()
 }
 
 /// A value that is no string.
@@ -99,25 +103,24 @@ fn plain(text: &[u8]) -> Value<'_> {
     if text.is_empty() {
         return Value::Default;
     }
-    if let Ok(number) = std::str::from_utf8(text) {
-        if let Ok(value) = number.parse() {
-            return Value::Integer(value);
-        }
-        if all_consuming(real).parse(text).is_ok()
-            && let Ok(value) = number.replace(['d', 'D'], "e").parse()
-        {
-            return Value::Real(value);
-        }
-    }
-    Value::Malformed(text)
+    number(text).unwrap_or(Value::Malformed(text))
 }
 
-fn real(text: &[u8]) -> IResult<&[u8], &[u8]> {
-    let digits = || take_while1(|b: u8| b.is_ascii_digit());
-    let fraction = || (one_of("."), take_while(|b: u8| b.is_ascii_digit()));
-    let mantissa = alt((recognize((digits(), opt(fraction()))), recognize((one_of("."), digits()))));
-    let exponent = (one_of("eEdD"), opt(one_of("+-")), digits());
-    recognize((opt(one_of("+-")), mantissa, opt(exponent))).parse(text)
+/// An integer or a real, its exponent after an E or a D.
+fn number(text: &[u8]) -> Option<Value<'_>> {
+    let number = std::str::from_utf8(text).ok()?;
+    let digits = number.trim_start_matches(['+', '-']);
+    // Words that are numbers elsewhere (infinity) are none here.
+    if !digits.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
+        return None;
+    }
+    if digits.len() < 19 && digits.bytes().all(|b| b.is_ascii_digit()) {
+        return number.parse().ok().map(Value::Integer);
+    }
+    match number.find(['d', 'D']) {
+        None => number.parse().ok().map(Value::Real),
+        Some(_) => number.replace(['d', 'D'], "e").parse().ok().map(Value::Real),
+    }
 }
 
 fn blank(byte: u8) -> bool {

@@ -60,7 +60,7 @@ fn edges_of<'p>(part: &'p Part, body: &'p Body) -> impl Iterator<Item = EdgeId> 
 
 /// Joins the pairs among `free`; gives how many edges went.
 fn sew_edges(part: &mut Part, body: usize, free: &[EdgeId], reach: f64) -> usize {
-    let Some(vertex) = coincident_vertices(part, free, reach) else { return 0 };
+    let vertex = coincident_vertices(part, free, reach);
     let root = |id: VertexId| vertex.get(&id).copied().unwrap_or(id);
     let mut by_ends: FxHashMap<(VertexId, VertexId), Vec<EdgeId>> = FxHashMap::default();
     let mut replaced: FxHashMap<EdgeId, (EdgeId, bool)> = FxHashMap::default();
@@ -101,9 +101,9 @@ fn sew_edges(part: &mut Part, body: usize, free: &[EdgeId], reach: f64) -> usize
     replaced.len()
 }
 
-/// For the ends of free edges, the first vertex that lies at the same place; `None` where an edge would shrink to
-/// nothing.
-fn coincident_vertices(part: &Part, free: &[EdgeId], reach: f64) -> Option<FxHashMap<VertexId, VertexId>> {
+/// For the ends of free edges, the first vertex that lies at the same place; not for those of an edge that would shrink
+/// to nothing.
+fn coincident_vertices(part: &Part, free: &[EdgeId], reach: f64) -> FxHashMap<VertexId, VertexId> {
     let mut ends: Vec<VertexId> =
         free.iter().flat_map(|&id| [part.edges[id as usize].start, part.edges[id as usize].end]).collect();
     ends.sort_unstable();
@@ -125,9 +125,17 @@ fn coincident_vertices(part: &Part, free: &[EdgeId], reach: f64) -> Option<FxHas
             None => grid.entry([x, y, z]).or_default().push(id),
         }
     }
-    let root = |id: VertexId| first.get(&id).copied().unwrap_or(id);
-    let shrinks = |edge: &Edge| edge.start != edge.end && root(edge.start) == root(edge.end);
-    (!free.iter().any(|&id| shrinks(&part.edges[id as usize]))).then_some(first)
+    for &id in free {
+        let edge = &part.edges[id as usize];
+        let root = |id: VertexId| first.get(&id).copied().unwrap_or(id);
+        let middle = edge.curve.point(edge.range.at(0.5));
+        let is_short = middle.distance(part.vertices[edge.start as usize].point) <= 2.0 * reach;
+        if is_short && edge.start != edge.end && root(edge.start) == root(edge.end) {
+            first.remove(&edge.start);
+            first.remove(&edge.end);
+        }
+    }
+    first
 }
 
 /// Whether two edges between the same vertices run along the same line.

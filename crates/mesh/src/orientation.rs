@@ -1,7 +1,7 @@
 //! Which faces must be turned so that a shell's triangles all face the same way, outwards where it is closed.
 
 use glam::DVec3;
-use trimloop_brep::{BodyKind, Part, Shell};
+use trimloop_brep::{BodyKind, EntityRef, Part, Shell};
 
 use crate::draft::FaceDraft;
 
@@ -49,6 +49,10 @@ impl Orientation {
             if (volume < 0.0) != shell.void && volume != 0.0 {
                 faces.iter().for_each(|&f| self.turned[f] ^= true);
             }
+        }
+        // A shell that the file does not have says nothing of how its faces should lie.
+        if shell.entity == EntityRef::None {
+            return;
         }
         let changed = faces.iter().zip(&before).filter(|&(&f, &b)| self.turned[f] != b);
         self.corrected.extend(changed.map(|(&f, _)| f as u32));

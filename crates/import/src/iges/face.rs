@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
-use trimloop_geom::{Curve, Surface};
+use glam::{DAffine3, DVec3};
+use trimloop_geom::{Curve, Direction, Interval, Surface};
 
 use super::curve::Piece;
 use super::reader::{Fault, Outcome, Parameters, Reader};
@@ -23,6 +23,26 @@ pub(crate) struct FaceDraft {
     pub surface: Arc<Surface>,
     pub same_sense: bool,
     pub bounds: Vec<BoundDraft>,
+}
+
+impl FaceDraft {
+    /// The face moved.
+    fn placed(mut self, map: &DAffine3) -> Self {
+        let (surface, turned) = self.surface.transformed(map);
+        self.surface = Arc::new(surface);
+        self.same_sense ^= turned;
+        let mirrored = map.matrix3.determinant() < 0.0;
+        for bound in &mut self.bounds {
+            bound.pieces.iter_mut().for_each(|(piece, turned)| {
+                *piece = piece.placed(map);
+                *turned ^= mirrored;
+            });
+            if mirrored {
+                bound.pieces.reverse();
+            }
+        }
+        self
+    }
 }
 
 /// Curves end to end, and for each whether it is run backwards.
@@ -48,6 +68,16 @@ impl BoundDraft {
 impl FaceReader<'_> {
     /// Types 143, 144, or a surface without any trimming.
     pub fn read(&self, entry: u32) -> Outcome<FaceDraft> {
+        let draft = self.read_in_place(entry)?;
+        let directory = self.reader.parameters(entry)?.directory;
+        // A surface of its own has its matrix in it already; one that is trimmed is moved with its boundaries.
+        if directory.transformation == 0 || !matches!(directory.entity_type, 143 | 144) {
+            return Ok(draft);
+        }
+        Ok(draft.placed(&self.reader.placement_mm(directory)?))
+    }
+
+    fn read_in_place(&self, entry: u32) -> Outcome<FaceDraft> {
         let mut parameters = self.reader.parameters(entry)?;
         match parameters.directory.entity_type {
             144 => {
@@ -85,23 +115,29 @@ impl FaceReader<'_> {
             }
             _ => {
                 let ground = self.reader.surface(entry)?;
-                let surface =
+                let (surface, domain) =
                     ground.untrimmed().ok_or_else(|| parameters.fault("never ends, and has no bounds"))?;
-                Ok(FaceDraft { surface: Arc::new(surface), same_sense: !ground.reversed, bounds: Vec::new() })
+                let surface = Arc::new(surface);
+                let bounds = natural_bound(&surface, domain, entry).into_iter().collect();
+                Ok(FaceDraft { surface, same_sense: !ground.reversed, bounds })
             }
         }
     }
 
     fn trimmed(&self, surface: u32, boundaries: &[u32], has_outer: bool) -> Outcome<FaceDraft> {
         let ground = self.reader.surface(surface)?;
+        let mut bounds = Vec::with_capacity(boundaries.len() + 1);
         let exact = if has_outer {
-            ground.surface.clone()
+            Arc::new(ground.surface.clone())
         } else {
-            ground.untrimmed().ok_or_else(|| Fault::new(surface, "never ends, and has no outer boundary"))?
+            let whole = ground.untrimmed();
+            let (whole, domain) =
+                whole.ok_or_else(|| Fault::new(surface, "never ends, and has no outer boundary"))?;
+            let whole = Arc::new(whole);
+            bounds.extend(natural_bound(&whole, domain, surface));
+            whole
         };
-        let exact = Arc::new(exact);
         let mut on_model = true;
-        let mut bounds = Vec::with_capacity(boundaries.len());
         for (k, &boundary) in boundaries.iter().enumerate() {
             let pieces = self.boundary(boundary, &ground, &exact)?;
             on_model &= pieces.iter().all(|piece| !matches!(piece.curve, Curve::OnSurface { .. }));
@@ -176,6 +212,38 @@ impl FaceReader<'_> {
         }
         if out.is_empty() { model } else { Ok(out) }
     }
+}
+
+/// The sides of a surface's domain as a loop, so that they can be sewn; none where it closes both ways.
+fn natural_bound(surface: &Arc<Surface>, domain: [Interval; 2], entry: u32) -> Option<BoundDraft> {
+    let closed = |k: usize| surface.periods()[k].is_some_and(|p| domain[k].length() >= p * (1.0 - 1e-9));
+    let is_ball = matches!(**surface, Surface::Sphere { .. });
+    if closed(0) && closed(1) || is_ball {
+        return None;
+    }
+    let [u, v] = domain;
+    let at = |u: f64, v: f64| DVec3::new(u, v, 0.0);
+    let side = |constant: Direction, at_value: f64, turned: bool| {
+        if let Surface::Nurbs(nurbs) = &**surface {
+            let curve = nurbs.isocurve(constant, at_value).ok()?;
+            let range = curve.domain();
+            return Some((Piece { curve: Curve::Nurbs(curve), range }, turned));
+        }
+        let (origin, direction, range) = match constant {
+            Direction::U => (at(at_value, 0.0), DVec3::Y, v),
+            Direction::V => (at(0.0, at_value), DVec3::X, u),
+        };
+        let pcurve = Arc::new(Curve::Line { origin, direction });
+        Some((Piece { curve: Curve::OnSurface { surface: surface.clone(), pcurve }, range }, turned))
+    };
+    let sides = [
+        side(Direction::V, v.start, false)?,
+        side(Direction::U, u.end, false)?,
+        side(Direction::V, v.end, true)?,
+        side(Direction::U, u.start, true)?,
+    ];
+    let pieces: Vec<_> = sides.into_iter().filter(|(piece, _)| !is_point(piece)).collect();
+    (!pieces.is_empty()).then_some(BoundDraft { entry, outer: true, pieces })
 }
 
 /// Whether a curve lies within `reach` of a surface.

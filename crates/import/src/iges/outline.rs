@@ -143,16 +143,18 @@ impl Outline {
     /// What a definition contains, or a single entity.
     pub fn of_definition(reader: &Reader<'_>, entry: u32, diagnostics: &mut Diagnostics) -> Self {
         let mut builder = Builder::new(reader, diagnostics);
-        let root = &mut builder.outline.groups[0];
-        root.entry = entry;
+        builder.outline.groups[0].entry = entry;
         match reader.file.get(entry) {
             Some(entity) if entity.directory.entity_type == 308 => {
+                let transform = builder.placement(entity.directory);
+                let root = &mut builder.outline.groups[0];
+                root.transform = transform;
                 let name = entity.values().nth(2).and_then(|name| Some(name.text()?.trim().to_owned()));
                 root.name = name.filter(|name| !name.is_empty()).or_else(|| name_of(reader, entry));
                 Layout::of(&entity).parts.into_iter().for_each(|member| builder.add(member, 0));
             }
             Some(_) => {
-                root.name = name_of(reader, entry);
+                builder.outline.groups[0].name = name_of(reader, entry);
                 builder.seen.insert(entry);
                 builder.add_content(entry, 0);
             }

@@ -103,12 +103,12 @@ impl Maker<'_, '_> {
             }
             158 => {
                 let radius = parameters.real()?;
-                let frame = Frame { origin: parameters.point()?, ..Frame::WORLD };
+                let frame = Frame { origin: location(parameters), ..Frame::WORLD };
                 self.closed(parameters, Surface::Sphere { frame, radius }, radius > 0.0, map)?;
             }
             160 => {
                 let [major, minor] = [parameters.real()?, parameters.real()?];
-                let origin = parameters.point()?;
+                let origin = location(parameters);
                 let axis = direction(parameters, DVec3::Z)?;
                 let frame = Frame::new(origin, axis, axis.any_orthogonal_vector());
                 let torus = Surface::Torus { frame, major, minor, v_range: None };
@@ -265,7 +265,7 @@ impl Maker<'_, '_> {
     fn revolved(&mut self, parameters: &mut Parameters<'_>, map: DAffine3) -> Outcome<()> {
         let profile = parameters.pointer()?;
         let share = parameters.optional_real().unwrap_or(1.0);
-        let origin = parameters.point()?;
+        let origin = location(parameters);
         let axis = direction(parameters, DVec3::Z)?;
         if !(share > 0.0 && share <= 1.0) {
             return Err(parameters.fault("is turned by no part of a full turn"));
@@ -277,7 +277,13 @@ impl Maker<'_, '_> {
             axis: (map.transform_vector3(axis) * hand).normalize(),
             angle: TAU * share,
         };
-        let closed = ends_meet(&pieces);
+        let mut closed = ends_meet(&pieces);
+        if !closed && parameters.directory.form == 1 {
+            // The curve is closed by the line between its ends.
+            let chord = segment(pieces[pieces.len() - 1].ends()[1], pieces[0].ends()[0]);
+            pieces.push(chord);
+            closed = true;
+        }
         if !closed {
             // The area is bounded by the axis and by perpendiculars from the curve's ends.
             let first = pieces[0].ends()[0];
@@ -449,6 +455,12 @@ fn positive(parameters: &mut Parameters<'_>) -> Outcome<DVec3> {
     if size.min_element() > 0.0 { Ok(size) } else { Err(parameters.fault("has a length that cannot be")) }
 }
 
+/// A point; what is left out of it is 0.
+fn location(parameters: &mut Parameters<'_>) -> DVec3 {
+    let mut coordinate = || parameters.optional_real().unwrap_or(0.0);
+    DVec3::new(coordinate(), coordinate(), coordinate())
+}
+
 /// A direction; `or` where none of its components is given.
 fn direction(parameters: &mut Parameters<'_>, or: DVec3) -> Outcome<DVec3> {
     let mut component = || parameters.optional_real();
@@ -462,7 +474,7 @@ fn direction(parameters: &mut Parameters<'_>, or: DVec3) -> Outcome<DVec3> {
 
 /// The place of a corner or a centre, with the directions of the local x and z axes.
 fn placed(parameters: &mut Parameters<'_>) -> Outcome<DAffine3> {
-    let origin = parameters.point()?;
+    let origin = location(parameters);
     let x = direction(parameters, DVec3::X)?;
     let z = direction(parameters, DVec3::Z)?;
     let frame = Frame::new(origin, z, x);
@@ -471,7 +483,7 @@ fn placed(parameters: &mut Parameters<'_>) -> Outcome<DAffine3> {
 
 /// The place of a base's centre, with the direction of the axis.
 fn axial(parameters: &mut Parameters<'_>) -> Outcome<DAffine3> {
-    let origin = parameters.point()?;
+    let origin = location(parameters);
     let z = direction(parameters, DVec3::Z)?;
     Ok(Frame::new(origin, z, z.any_orthogonal_vector()).to_affine())
 }

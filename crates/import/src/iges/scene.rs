@@ -148,7 +148,7 @@ impl<'f> SceneBuilder<'f> {
                     let mut node = self.node(group, target.parts[0], names(group).0);
                     node.entity = entity_of(placement.entry);
                     node.instance_name.clone_from(&placement.name);
-                    node.transform = placement.transform;
+                    node.transform = placement.transform * group.transform;
                     node.color = placement.color;
                     node.hidden = placement.hidden;
                     let index = self.add(nodes[k], node);

@@ -89,11 +89,20 @@ impl<'f> ShapeBuilder<'f> {
     /// A loop of edges that no other face has yet.
     fn bound(&mut self, bound: BoundDraft) -> Loop {
         let entity = EntityRef::Iges(bound.entry);
-        let vertices: Vec<VertexId> = bound
-            .pieces
-            .iter()
-            .map(|(piece, turned)| self.vertex(piece.ends()[usize::from(*turned)], entity))
-            .collect();
+        let mut vertices: Vec<VertexId> = Vec::with_capacity(bound.pieces.len());
+        // What comes after a piece that closes on itself starts where that piece does.
+        let mut closed_before = None;
+        for (piece, turned) in &bound.pieces {
+            let ends = piece.ends();
+            let start = ends[usize::from(*turned)];
+            let vertex = closed_before.unwrap_or_else(|| self.vertex(start, entity));
+            vertices.push(vertex);
+            let is_closed = ends[0].distance(ends[1]) <= 1e-9 * (1.0 + start.length());
+            closed_before = is_closed.then_some(vertex);
+        }
+        if let Some(vertex) = closed_before {
+            vertices[0] = vertex;
+        }
         let mut coedges = Vec::with_capacity(vertices.len());
         for (k, (piece, turned)) in bound.pieces.into_iter().enumerate() {
             let (from, to) = (vertices[k], vertices[(k + 1) % vertices.len()]);

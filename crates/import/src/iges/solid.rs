@@ -16,19 +16,53 @@ use super::shape::ShapeBuilder;
 impl ShapeBuilder<'_> {
     /// Adds a solid (type 186) with its voids, or a shell of its own (type 514).
     pub fn add_solid(&mut self, entry: u32, color: Option<Rgba>) {
-        let first = self.part.faces.len() as FaceId;
-        let solid = self.solid(entry, color);
-        self.hide_blanked(entry, first);
+        let before = [self.part.faces.len(), self.part.edges.len(), self.part.vertices.len()];
+        let solid = self.solid(entry, color).and_then(|body| {
+            self.place(entry, before)?;
+            Ok(body)
+        });
+        self.hide_blanked(entry, before[0] as FaceId);
         match solid {
             Ok(body) => self.add_body(body),
             Err(fault) => self.diagnostics.push(fault.diagnostic(Severity::Error, "shell-unreadable")),
         }
     }
 
+    /// Moves what was added since there were so many faces, edges and vertices by a solid's own matrix, which holds for
+    /// all that the solid is made of.
+    fn place(&mut self, entry: u32, [faces, edges, vertices]: [usize; 3]) -> Outcome<()> {
+        let directory = self.reader.parameters(entry)?.directory;
+        if directory.transformation == 0 {
+            return Ok(());
+        }
+        let map = self.reader.placement_mm(directory)?;
+        let mirrored = map.matrix3.determinant() < 0.0;
+        for face in &mut self.part.faces[faces..] {
+            if let FaceGeometry::Surface(surface) = &mut face.geometry {
+                let (image, turned) = surface.transformed(&map);
+                *surface = Arc::new(image);
+                face.same_sense ^= turned;
+            }
+            for bound in face.loops.iter_mut().filter(|_| mirrored) {
+                bound.coedges.reverse();
+                bound.coedges.iter_mut().for_each(|coedge| coedge.reversed ^= true);
+            }
+        }
+        for edge in &mut self.part.edges[edges..] {
+            edge.curve = Arc::new(edge.curve.transformed(&map));
+        }
+        for vertex in &mut self.part.vertices[vertices..] {
+            vertex.point = map.transform_point3(vertex.point);
+        }
+        Ok(())
+    }
+
     fn solid(&mut self, entry: u32, color: Option<Rgba>) -> Outcome<Body> {
         let mut parameters = self.reader.parameters(entry)?;
         let name = name_of(&self.reader, entry).unwrap_or_default();
         let is_solid = parameters.directory.entity_type == 186;
+        // A closed shell that stands alone bounds a solid too.
+        let is_closed = is_solid || parameters.directory.form != 2;
         let mut shared = SharedEdges::default();
         let mut shells = Vec::new();
         if is_solid {
@@ -41,7 +75,7 @@ impl ShapeBuilder<'_> {
         } else {
             shells.push(self.shell(entry, false, false, color, &mut shared)?);
         }
-        let kind = if is_solid { BodyKind::Solid } else { BodyKind::Sheet };
+        let kind = if is_closed { BodyKind::Solid } else { BodyKind::Sheet };
         let layers = levels_of(&self.reader, entry);
         Ok(Body { name, entity: EntityRef::Iges(entry), kind, shells, layers })
     }

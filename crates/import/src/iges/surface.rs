@@ -31,12 +31,19 @@ impl Ground {
         elementary(&self.surface).unwrap_or_else(|| self.surface.clone())
     }
 
-    /// All of the entity, as a surface that ends where its domain does; `None` where it never ends.
-    pub fn untrimmed(&self) -> Option<Surface> {
+    /// All of the entity, and the parameters that it ends at: as a spline, where it can be one; `None` where it never
+    /// ends.
+    pub fn untrimmed(&self) -> Option<(Surface, [Interval; 2])> {
+        let domain = self.domain.unwrap_or_else(|| self.surface.domain());
+        if !domain.iter().all(|range| range.is_finite()) {
+            return None;
+        }
         match (&self.surface, self.domain) {
-            (surface, Some([u, v])) => surface.to_nurbs([u, v]).map(Surface::Nurbs),
-            (Surface::Plane { .. } | Surface::Cylinder { .. } | Surface::Cone { .. }, None) => None,
-            (surface, None) => Some(surface.clone()),
+            (surface, Some(domain)) => {
+                let spline = surface.to_nurbs(domain).map(|spline| (spline.domain(), Surface::Nurbs(spline)));
+                Some(spline.map_or_else(|| (surface.clone(), domain), |(domain, spline)| (spline, domain)))
+            }
+            (surface, None) => Some((surface.clone(), domain)),
         }
     }
 }
