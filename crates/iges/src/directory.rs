@@ -55,9 +55,9 @@ impl Status {
 
 impl DirectoryEntry {
     /// The entry of two lines; where a field is no number, its place and 0.
-    pub(crate) fn of(first: &Line, second: &Line, number: u32) -> (Self, Vec<String>) {
+    pub(crate) fn of(first: &Line<'_>, second: &Line<'_>, number: u32) -> (Self, Vec<String>) {
         let mut wrong = Vec::new();
-        let mut integer = |line: &Line, field: usize, name: &str| -> i32 {
+        let mut integer = |line: &Line<'_>, field: usize, name: &str| -> i32 {
             let text = std::str::from_utf8(column(line, field)).unwrap_or("?").trim();
             match text.parse() {
                 Ok(value) => value,
@@ -95,7 +95,7 @@ impl DirectoryEntry {
 }
 
 /// Eight columns.
-fn column(line: &Line, field: usize) -> &[u8] {
+fn column<'a>(line: &Line<'a>, field: usize) -> &'a [u8] {
     &line.text[8 * field..8 * field + 8]
 }
 
@@ -104,16 +104,19 @@ mod tests {
     use super::*;
     use crate::Section;
 
-    fn line(text: &str) -> Line {
-        let text = format!("{text:<72}").into_bytes();
-        Line { section: Section::Directory, text, number: 7, sequence: Some(3) }
+    fn entry(first: &str, second: &str) -> (DirectoryEntry, Vec<String>) {
+        let texts = [first, second].map(|text| format!("{text:<72}").into_bytes());
+        let [first, second] =
+            [0, 1].map(|k| Line { section: Section::Directory, text: &texts[k], number: 7 });
+        DirectoryEntry::of(&first, &second, 3)
     }
 
     #[test]
     fn fields_are_eight_columns_wide() {
-        let first = line("     128      12       0       0       5       0      21       001020304");
-        let second = line("     128       0      -9       3       1                   BLADE      12");
-        let (entry, wrong) = DirectoryEntry::of(&first, &second, 3);
+        let (entry, wrong) = entry(
+            "     128      12       0       0       5       0      21       001020304",
+            "     128       0      -9       3       1                   BLADE      12",
+        );
         assert!(wrong.is_empty(), "{wrong:?}");
         assert_eq!((entry.entity_type, entry.parameters, entry.parameter_lines), (128, 12, 3));
         assert_eq!((entry.level, entry.transformation, entry.color, entry.form), (5, 21, -9, 1));
@@ -124,7 +127,7 @@ mod tests {
 
     #[test]
     fn a_field_that_is_no_number_is_reported() {
-        let (_, wrong) = DirectoryEntry::of(&line("     116       x"), &line("     116"), 1);
+        let (_, wrong) = entry("     116       x", "     116");
         assert_eq!(wrong, ["the parameter data pointer (\"x\") is no number"]);
     }
 }

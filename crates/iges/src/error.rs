@@ -25,9 +25,6 @@ pub enum ReadError {
     /// IGES 5.3 section 2.4.
     #[error("this is a binary IGES file, a form that was withdrawn; export it again as ASCII")]
     Binary,
-    /// IGES 5.3 section 2.3.
-    #[error("this is a compressed ASCII IGES file, which cannot be read yet; export it in the fixed form")]
-    Compressed,
     /// No section letters where they should be.
     #[error("this is not an IGES file: {0}")]
     NotIges(&'static str),

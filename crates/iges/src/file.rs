@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
+use crate::compressed;
 use crate::directory::DirectoryEntry;
-use crate::lines::{Line, lines};
+use crate::lines::{Line, Sheet, lines, look_like_iges};
 use crate::value::decode;
 use crate::{Entity, Global, ReadError, Section, SyntaxError};
 
@@ -25,20 +26,27 @@ pub struct IgesFile {
 impl IgesFile {
     /// Reads the bytes of a file. Damage costs no more than what is damaged: see [`Self::errors`].
     pub fn parse(bytes: &[u8]) -> Result<Self, ReadError> {
-        let (lines, strays) = lines(bytes)?;
-        let of = |section: Section| lines.iter().filter(move |line| line.section == section);
-        if of(Section::Flag).next().is_some() {
-            return Err(ReadError::Compressed);
+        let mut sheet = lines(bytes)?;
+        let mut errors: Vec<SyntaxError> = sheet.strays.iter().take(MAX_STRAYS).map(|&line| stray(line)).collect();
+        let is_compressed = sheet.count(Section::Flag) > 0;
+        if is_compressed {
+            errors.clear();
+            sheet = compressed::expanded(bytes, &mut errors)?;
         }
-        let mut errors: Vec<SyntaxError> = strays.iter().take(MAX_STRAYS).map(|&line| stray(line)).collect();
-        let joined = |section| of(section).flat_map(|line| line.text.iter().copied()).collect::<Vec<u8>>();
-        let start: Vec<String> = of(Section::Start).map(|l| decode(&l.text).trim_end().to_owned()).collect();
-        let directory = directory(&of(Section::Directory).collect::<Vec<_>>(), &mut errors);
-        let parameters: Vec<&Line> = of(Section::Parameter).collect();
+        let joined = |section| sheet.of(section).flat_map(|line| line.text.iter().copied()).collect::<Vec<u8>>();
+        let start: Vec<String> =
+            sheet.of(Section::Start).map(|line| decode(line.text).trim_end().to_owned()).collect();
+        let directory = directory(&sheet.of(Section::Directory).collect::<Vec<_>>(), &mut errors);
+        let parameters: Vec<Line<'_>> = sheet.of(Section::Parameter).collect();
         let (text, ranges) = assemble(&directory, &parameters, &mut errors);
-        check_terminate(&lines, &mut errors);
+        check_terminate(&sheet, &mut errors);
         let global = Global::parse(&joined(Section::Global));
         Ok(Self { start: start.join("\n"), global, directory, ranges, text, errors })
+    }
+
+    /// Whether a file that begins with `head` is IGES, in any of its forms.
+    pub fn looks_like(head: &[u8]) -> bool {
+        look_like_iges(head)
     }
 
     /// The Start section: words for people.
@@ -92,7 +100,7 @@ fn stray(line: usize) -> SyntaxError {
     SyntaxError { line, section: Section::Start, entry: None, message }
 }
 
-fn directory(lines: &[&Line], errors: &mut Vec<SyntaxError>) -> Vec<DirectoryEntry> {
+fn directory(lines: &[Line<'_>], errors: &mut Vec<SyntaxError>) -> Vec<DirectoryEntry> {
     let mut out = Vec::with_capacity(lines.len() / 2);
     for pair in lines.chunks(2) {
         let number = 2 * out.len() as u32 + 1;
@@ -116,7 +124,7 @@ fn directory(lines: &[&Line], errors: &mut Vec<SyntaxError>) -> Vec<DirectoryEnt
 /// The parameters' text without the pointers back, and where each entity's part of it lies.
 fn assemble(
     directory: &[DirectoryEntry],
-    lines: &[&Line],
+    lines: &[Line<'_>],
     errors: &mut Vec<SyntaxError>,
 ) -> (Vec<u8>, Vec<Range<usize>>) {
     let text = lines.iter().flat_map(|line| line.text[..PARAMETER_WIDTH].iter().copied()).collect();
@@ -143,21 +151,21 @@ fn assemble(
 }
 
 /// The lines that the directory names.
-fn told_range(entry: &DirectoryEntry, lines: &[&Line]) -> Option<Range<usize>> {
+fn told_range(entry: &DirectoryEntry, lines: &[Line<'_>]) -> Option<Range<usize>> {
     let first = (entry.parameters as usize).checked_sub(1).filter(|first| *first < lines.len())?;
     let count = (entry.parameter_lines as usize).clamp(1, lines.len() - first);
     Some(first..first + count)
 }
 
 /// By the directory entry that lines point back to, the first run of such lines.
-fn runs(lines: &[&Line]) -> std::collections::HashMap<u32, Range<usize>> {
+fn runs(lines: &[Line<'_>]) -> std::collections::HashMap<u32, Range<usize>> {
     let mut out = std::collections::HashMap::new();
-    let back = |line: &Line| -> Option<u32> {
+    let back = |line: &Line<'_>| -> Option<u32> {
         std::str::from_utf8(&line.text[PARAMETER_WIDTH..]).ok()?.trim().parse().ok()
     };
     let mut at = 0;
     while at < lines.len() {
-        let entry = back(lines[at]);
+        let entry = back(&lines[at]);
         let length = lines[at..].iter().take_while(|line| back(line) == entry).count();
         if let Some(entry) = entry {
             out.entry(entry).or_insert(at..at + length);
@@ -168,18 +176,18 @@ fn runs(lines: &[&Line]) -> std::collections::HashMap<u32, Range<usize>> {
 }
 
 /// Whether the last line's counts are those of the sections.
-fn check_terminate(lines: &[Line], errors: &mut Vec<SyntaxError>) {
-    let last = lines.last().map_or(0, |line| line.number);
-    let Some(end) = lines.iter().find(|line| line.section == Section::Terminate) else {
+fn check_terminate(sheet: &Sheet, errors: &mut Vec<SyntaxError>) {
+    let Some(end) = sheet.of(Section::Terminate).next() else {
         let message = "the file ends without a Terminate section; it may be cut off".to_owned();
-        errors.push(SyntaxError { line: last, section: Section::Terminate, entry: None, message });
+        let line = sheet.last_number();
+        errors.push(SyntaxError { line, section: Section::Terminate, entry: None, message });
         return;
     };
     for (field, section) in
         [(0, Section::Start), (1, Section::Global), (2, Section::Directory), (3, Section::Parameter)]
     {
         let told = decode(&end.text[8 * field + 1..8 * field + 8]).trim().parse::<usize>();
-        let found = lines.iter().filter(|line| line.section == section).count();
+        let found = sheet.count(section);
         if let Ok(told) = told
             && told != found
         {

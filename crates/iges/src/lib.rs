@@ -25,6 +25,7 @@
 //! # Ok::<(), trimloop_iges::ReadError>(())
 //! ```
 
+mod compressed;
 mod delimiters;
 mod directory;
 mod entity;

@@ -52,57 +52,112 @@ impl fmt::Display for Section {
 pub(crate) const WIDTH: usize = 72;
 
 /// A line that belongs to a section.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Line {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Line<'a> {
     pub section: Section,
     /// The first 72 columns, padded with blanks where the line is shorter.
-    pub text: Vec<u8>,
+    pub text: &'a [u8],
     /// From 1.
     pub number: usize,
-    /// The number after the section letter, where there is one.
-    pub sequence: Option<u32>,
 }
 
-/// The lines of a file, and the numbers of those that belong to no section.
-pub(crate) fn lines(bytes: &[u8]) -> Result<(Vec<Line>, Vec<usize>), ReadError> {
+/// The lines of a file, each with 72 columns.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sheet {
+    text: Vec<u8>,
+    lines: Vec<(Section, usize)>,
+    /// The numbers of lines that belong to no section.
+    pub strays: Vec<usize>,
+}
+
+impl Sheet {
+    /// Adds a line, of which no more than 72 columns count.
+    pub fn push(&mut self, section: Section, text: &[u8], number: usize) {
+        let start = self.text.len();
+        self.text.extend_from_slice(&text[..text.len().min(WIDTH)]);
+        self.text.resize(start + WIDTH, b' ');
+        self.lines.push((section, number));
+    }
+
+    /// All lines, in order.
+    pub fn lines(&self) -> impl ExactSizeIterator<Item = Line<'_>> {
+        let texts = self.text.chunks_exact(WIDTH);
+        self.lines.iter().zip(texts).map(|(&(section, number), text)| Line { section, text, number })
+    }
+
+    /// The lines of a section.
+    pub fn of(&self, section: Section) -> impl Iterator<Item = Line<'_>> {
+        self.lines().filter(move |line| line.section == section)
+    }
+
+    /// How many lines a section has.
+    pub fn count(&self, section: Section) -> usize {
+        self.lines.iter().filter(|line| line.0 == section).count()
+    }
+
+    /// The number of the last line; 0 of none.
+    pub fn last_number(&self) -> usize {
+        self.lines.last().map_or(0, |line| line.1)
+    }
+}
+
+/// The lines of a file in fixed form, or of a compressed one as far as its data.
+pub(crate) fn lines(bytes: &[u8]) -> Result<Sheet, ReadError> {
     if bytes.iter().all(|b| b.is_ascii_whitespace() || *b == 0) {
         return Err(ReadError::Empty);
     }
     if looks_binary(bytes) {
         return Err(ReadError::Binary);
     }
-    let mut out = Vec::new();
-    let mut strays = Vec::new();
+    let mut out = Sheet::default();
+    out.text.reserve(bytes.len());
+    let mut expanded = Vec::new();
     for (index, raw) in split(bytes).enumerate() {
         let number = index + 1;
         if raw.iter().all(u8::is_ascii_whitespace) {
             continue;
         }
-        match line(raw, number, out.last()) {
-            Some(line) => out.push(line),
-            None => strays.push(number),
+        let text = without_tabs(raw, &mut expanded);
+        let last = out.lines.last().map(|line| line.0);
+        match letter_column(text, last).and_then(|at| Some((Section::of(*text.get(at)?)?, at))) {
+            Some((section, at)) => out.push(section, &text[..at], number),
+            None => out.strays.push(number),
         }
-        if out.is_empty() && strays.len() > 50 {
+        if out.lines.is_empty() && out.strays.len() > 50 {
             break;
         }
     }
-    if out.iter().any(|line| matches!(line.section, Section::Directory | Section::Flag)) {
-        return Ok((out, strays));
+    let is_data = |line: &(Section, usize)| matches!(line.0, Section::Directory | Section::Flag);
+    if out.lines.iter().any(is_data) {
+        return Ok(out);
     }
-    Err(ReadError::NotIges(if out.is_empty() {
+    Err(ReadError::NotIges(if out.lines.is_empty() {
         "no line has a section letter in column 73"
     } else {
         "it has no Directory section"
     }))
 }
 
-/// A flag line whose first byte is B, followed by the lengths of the binary form.
+/// Whether the first line is one of a file in any of the three forms.
+pub(crate) fn look_like_iges(head: &[u8]) -> bool {
+    if looks_binary(head) {
+        return true;
+    }
+    let first = split(head).find(|line| !line.iter().all(u8::is_ascii_whitespace));
+    let Some(first) = first.filter(|line| line.len() >= WIDTH - 8) else { return false };
+    let mut expanded = Vec::new();
+    let text = without_tabs(first, &mut expanded);
+    let section = letter_column(text, None).and_then(|at| Section::of(*text.get(at)?));
+    matches!(section, Some(Section::Start | Section::Flag | Section::Global))
+}
+
+/// A flag section: B, the length of what follows, and the lengths of numbers, as IGES 5.3 section 2.4 has them.
 fn looks_binary(bytes: &[u8]) -> bool {
     bytes.first() == Some(&b'B') && bytes.iter().take(80).any(|b| *b < b' ' && !b.is_ascii_whitespace())
 }
 
 /// Lines that end with LF, CR or both; records of 80 bytes where nothing ends a line.
-fn split(bytes: &[u8]) -> Box<dyn Iterator<Item = &[u8]> + '_> {
+pub(crate) fn split(bytes: &[u8]) -> Box<dyn Iterator<Item = &[u8]> + '_> {
     let ends = memchr::memchr2(b'\n', b'\r', bytes).is_some_and(|at| at < 2000);
     if !ends && bytes.len() > 2 * 80 {
         return Box::new(bytes.chunks(80));
@@ -122,37 +177,32 @@ fn split(bytes: &[u8]) -> Box<dyn Iterator<Item = &[u8]> + '_> {
     }))
 }
 
-/// A line by its section letter: in column 73, else where blanks or bytes that were lost have moved it.
-fn line(raw: &[u8], number: usize, last: Option<&Line>) -> Option<Line> {
-    let expanded = expand_tabs(raw);
-    let at = letter_column(&expanded, last)?;
-    let section = Section::of(*expanded.get(at)?)?;
-    let mut text = expanded[..at].to_vec();
-    text.resize(WIDTH, b' ');
-    let sequence = std::str::from_utf8(expanded.get(at + 1..).unwrap_or_default()).ok();
-    let sequence = sequence.and_then(|s| s.split_whitespace().next()).and_then(|s| s.parse().ok());
-    Some(Line { section, text, number, sequence })
-}
-
-fn expand_tabs(raw: &[u8]) -> Vec<u8> {
-    let mut out = Vec::with_capacity(raw.len().max(80));
+/// The line with blanks for tabs.
+pub(crate) fn without_tabs<'a>(raw: &'a [u8], expanded: &'a mut Vec<u8>) -> &'a [u8] {
+    if memchr::memchr(b'\t', raw).is_none() {
+        return raw;
+    }
+    expanded.clear();
     for &byte in raw {
         if byte == b'\t' {
-            out.resize(out.len() / 8 * 8 + 8, b' ');
+            expanded.resize(expanded.len() / 8 * 8 + 8, b' ');
         } else {
-            out.push(byte);
+            expanded.push(byte);
         }
     }
-    out
+    expanded
 }
 
-fn letter_column(text: &[u8], last: Option<&Line>) -> Option<usize> {
-    let is_letter = |at: usize| {
+/// Where a line's section letter stands: in column 73, else where blanks or bytes that were lost have moved it.
+fn letter_column(text: &[u8], last: Option<Section>) -> Option<usize> {
+    let is_letter = |at: usize, end: usize| {
         let section = text.get(at).copied().and_then(Section::of);
-        section.is_some_and(|section| last.is_none_or(|last| section >= last.section))
-            && text.get(at + 1..).is_some_and(|rest| rest.iter().all(|b| b.is_ascii_digit() || *b == b' '))
+        let end = end.min(text.len());
+        section.is_some_and(|section| last.is_none_or(|last| section >= last))
+            && text.get(at + 1..end).is_some_and(|rest| rest.iter().all(|b| b.is_ascii_digit() || *b == b' '))
     };
-    if is_letter(WIDTH) {
+    // What stands after column 80 is nobody's.
+    if is_letter(WIDTH, WIDTH + 8) {
         return Some(WIDTH);
     }
     // A letter before a number at the very end, as in lines that are a few columns short or long.
@@ -160,7 +210,7 @@ fn letter_column(text: &[u8], last: Option<&Line>) -> Option<usize> {
     let trailing = text.iter().rev().take_while(|b| **b == b' ').count();
     let blanks = text.len().checked_sub(trailing + digits)?;
     let at = text[..blanks].iter().rposition(|b| *b != b' ')?;
-    (digits > 0 && at.abs_diff(WIDTH) <= 8 && is_letter(at)).then_some(at)
+    (digits > 0 && at.abs_diff(WIDTH) <= 8 && is_letter(at, usize::MAX)).then_some(at)
 }
 
 #[cfg(test)]
@@ -168,8 +218,7 @@ mod tests {
     use super::*;
 
     fn sections(text: &str) -> Vec<(Section, usize)> {
-        let (lines, _) = lines(text.as_bytes()).expect("lines");
-        lines.iter().map(|line| (line.section, line.number)).collect()
+        lines(text.as_bytes()).expect("lines").lines().map(|line| (line.section, line.number)).collect()
     }
 
     fn record(text: &str, letter: char, sequence: u32) -> String {
@@ -198,9 +247,16 @@ mod tests {
     }
 
     #[test]
+    fn what_stands_after_column_80_is_nobodys() {
+        let line = record("116,0.,0.,0.;", 'P', 1) + "  written by a card reader 7";
+        let text = [record("", 'S', 1), record("", 'D', 1), line].join("\n");
+        assert_eq!(sections(&text)[2], (Section::Parameter, 3));
+    }
+
+    #[test]
     fn what_is_not_iges_is_refused_by_name() {
-        assert_eq!(lines(b" \r\n"), Err(ReadError::Empty));
-        assert_eq!(lines(b"B\x00\x00\x01rest"), Err(ReadError::Binary));
+        assert_eq!(lines(b" \r\n").err(), Some(ReadError::Empty));
+        assert_eq!(lines(b"B\x00\x00\x01rest").err(), Some(ReadError::Binary));
         assert!(matches!(lines(b"ISO-10303-21;\nHEADER;\n"), Err(ReadError::NotIges(_))));
     }
 }

@@ -1,11 +1,12 @@
 //! Parameter values in free format (IGES 5.3 section 2.2.2 and 2.2.3).
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use memchr::memchr2;
 use nom::IResult;
 use nom::Parser;
-use nom::bytes::complete::{take, take_while};
+use nom::bytes::complete::take_while;
 use nom::character::complete::{one_of, u64 as count};
 
 use crate::Delimiters;
@@ -71,12 +72,10 @@ pub(crate) enum After {
 
 /// The next parameter, what ends it, and the text after that.
 pub(crate) fn next(text: &[u8], delimiters: Delimiters) -> (Value<'_>, After, &[u8]) {
-    let (string, rest) = match hollerith(text) {
-        Some((rest, string)) => (Some(string), rest),
-        None => (None, text),
-    };
+    let string = hollerith(text).map(|string| mended(text, string, delimiters));
+    let rest = &text[string.as_ref().map_or(0, |string| string.end)..];
     let end = memchr2(delimiters.parameter, delimiters.record, rest).unwrap_or(rest.len());
-    let value = string.map_or_else(|| plain(&rest[..end]), Value::Text);
+    let value = string.map_or_else(|| plain(&rest[..end]), |string| Value::Text(&text[string]));
     match rest.get(end) {
         Some(b) if *b == delimiters.parameter => (value, After::Parameter, &rest[end + 1..]),
         Some(_) => (value, After::RecordEnd, &rest[end + 1..]),
@@ -84,17 +83,34 @@ pub(crate) fn next(text: &[u8], delimiters: Delimiters) -> (Value<'_>, After, &[
     }
 }
 
-/// `nH` and n bytes, and what follows; fewer bytes where the text ends before. Looks twice only where there is an H.
-fn hollerith(text: &[u8]) -> Option<(&[u8], &[u8])> {
+/// Where the n bytes after `nH` lie; fewer where the text ends before.
+fn hollerith(text: &[u8]) -> Option<Range<usize>> {
+    // Few values are strings: those without an H are none.
     let mark = text.iter().position(|b| !b.is_ascii_digit() && *b != b' ')?;
     if !matches!(text[mark], b'H' | b'h') {
         return None;
     }
     let counted: IResult<&[u8], _> = (take_while(blank), count, one_of("Hh")).parse(text);
     let (rest, (_, length, _)) = counted.ok()?;
-    let length = usize::try_from(length).unwrap_or(usize::MAX).min(rest.len());
-    let string: IResult<&[u8], &[u8]> = take(length).parse(rest);
-    string.ok()
+    let start = text.len() - rest.len();
+    Some(start..start + usize::try_from(length).unwrap_or(usize::MAX).min(rest.len()))
+}
+
+/// Where a string lies whose count may be wrong, which shows where more than blanks stand between it and the next
+/// delimiter: it ends at the last delimiter that it holds with nothing but blanks behind it, or else at the next one.
+fn mended(text: &[u8], string: Range<usize>, delimiters: Delimiters) -> Range<usize> {
+    let rest = &text[string.end..];
+    let end = memchr2(delimiters.parameter, delimiters.record, rest).unwrap_or(rest.len());
+    if rest[..end].iter().all(u8::is_ascii_whitespace) {
+        return string;
+    }
+    let is_delimiter = |b: &u8| *b == delimiters.parameter || *b == delimiters.record;
+    let held = &text[string.clone()];
+    match held.iter().rposition(is_delimiter) {
+        Some(at) if held[at + 1..].iter().all(|b| *b == b' ') => string.start..string.start + at,
+        Some(_) => string,
+        None => string.start..string.end + end,
+    }
 }
 
 /// A value that is no string.
@@ -163,6 +179,14 @@ mod tests {
         let found = values("NaN,1.2.3,e5,--1,4;");
         assert!(found[..4].iter().all(|v| matches!(v, Value::Malformed(_))), "{found:?}");
         assert_eq!(found[4], Value::Integer(4));
+    }
+
+    #[test]
+    fn a_string_whose_count_is_wrong_goes_to_its_delimiter() {
+        let found = values("30HC:\\part.igs,                        26Hx,1;");
+        assert_eq!(found[0], Value::Text(b"C:\\part.igs"), "too long a count");
+        assert_eq!(values("3Hhello,1;")[..2], [Value::Text(b"hello"), Value::Integer(1)], "too short a count");
+        assert_eq!(values("3Ha,b ,1;"), [Value::Text(b"a,b"), Value::Integer(1)], "a right one");
     }
 
     #[test]

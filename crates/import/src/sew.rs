@@ -140,16 +140,25 @@ fn coincident_vertices(part: &Part, free: &[EdgeId], reach: f64) -> FxHashMap<Ve
 
 /// Whether two edges between the same vertices run along the same line.
 fn coincide(a: &Edge, b: &Edge, reach: f64) -> bool {
-    [0.25, 0.5, 0.75].iter().all(|&share| {
-        let point = a.curve.point(a.range.at(share));
-        b.curve.project(point, None).distance <= reach
-            && nearest_share(b, point).is_some_and(|s| (0.0..=1.0).contains(&s))
+    // Mostly they have the same parameters, one way or the other, and nothing need be searched.
+    let at = |edge: &Edge, share: f64| edge.curve.point(edge.range.at(share));
+    let alike = |turned: bool| {
+        SHARES.iter().all(|&s| at(a, s).distance(at(b, if turned { 1.0 - s } else { s })) <= reach)
+    };
+    if alike(false) || alike(true) {
+        return true;
+    }
+    SHARES.iter().all(|&share| {
+        let foot = b.curve.project(at(a, share), None);
+        foot.distance <= reach && share_at(b, foot.t).is_some_and(|s| (0.0..=1.0).contains(&s))
     })
 }
 
-/// Where along an edge, as a share of its range, the point nearest to `point` lies.
-pub(crate) fn nearest_share(edge: &Edge, point: DVec3) -> Option<f64> {
-    let mut t = edge.curve.project(point, None).t;
+/// Where along edges they are held against each other.
+const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// Where along an edge, as a share of its range, its curve's parameter `t` or the same a few turns away lies.
+pub(crate) fn share_at(edge: &Edge, mut t: f64) -> Option<f64> {
     if let Some(period) = edge.curve.period() {
         while t < edge.range.start {
             t += period;

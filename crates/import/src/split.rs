@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use trimloop_brep::{Coedge, Edge, EdgeId, FaceId, Part, Vertex, VertexId};
 use trimloop_geom::{Aabb, Interval};
 
-use crate::sew::nearest_share;
+use crate::sew::share_at;
 
 /// Cuts the edges among `free` on which ends of others lie within `reach`, millimetres; gives how many cuts were made.
 pub(crate) fn split_edges(part: &mut Part, faces: &[FaceId], free: &[EdgeId], reach: f64) -> usize {
@@ -88,20 +88,50 @@ fn cut_points(part: &Part, id: EdgeId, ends: &Ends, reach: f64) -> Vec<(f64, DVe
     let corners = [edge.start, edge.end].map(|vertex| part.vertices[vertex as usize].point);
     let bounds = edge.curve.bounds(edge.range);
     let bounds = Aabb { min: bounds.min - reach, max: bounds.max + reach };
+    let line = Outline::new(edge);
     let mut out: Vec<(f64, DVec3)> = Vec::new();
     for point in ends.within(bounds) {
-        if corners.iter().any(|corner| corner.distance(point) <= 2.0 * reach)
-            || edge.curve.project(point, None).distance > reach
-        {
+        if corners.iter().any(|corner| corner.distance(point) <= 2.0 * reach) || !line.is_near(point, reach) {
             continue;
         }
-        if let Some(share) = nearest_share(edge, point).filter(|share| (1e-9..1.0 - 1e-9).contains(share)) {
+        let foot = edge.curve.project(point, None);
+        let share = share_at(edge, foot.t).filter(|share| (1e-9..1.0 - 1e-9).contains(share));
+        if let Some(share) = share.filter(|_| foot.distance <= reach) {
             out.push((edge.range.at(share), point));
         }
     }
     out.sort_by(|a, b| a.0.total_cmp(&b.0));
     out.dedup_by(|next, before| next.1.distance(before.1) <= 2.0 * reach);
     out
+}
+
+/// An edge as a few straight lines, to tell at once what is far from it.
+struct Outline {
+    points: Vec<DVec3>,
+    /// How far the edge strays from the lines, about.
+    sag: f64,
+}
+
+impl Outline {
+    const PIECES: usize = 8;
+
+    fn new(edge: &Edge) -> Self {
+        let at = |k: usize| edge.curve.point(edge.range.at(k as f64 / (2 * Self::PIECES) as f64));
+        let all: Vec<DVec3> = (0..=2 * Self::PIECES).map(at).collect();
+        let sags = all.windows(3).step_by(2).map(|p| segment_distance(p[1], p[0], p[2]));
+        Self { sag: sags.fold(0.0, f64::max), points: all.into_iter().step_by(2).collect() }
+    }
+
+    fn is_near(&self, point: DVec3, reach: f64) -> bool {
+        let limit = reach + 4.0 * self.sag;
+        self.points.windows(2).any(|pair| !(segment_distance(point, pair[0], pair[1]) > limit))
+    }
+}
+
+fn segment_distance(point: DVec3, a: DVec3, b: DVec3) -> f64 {
+    let along = b - a;
+    let share = ((point - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+    point.distance(if share.is_nan() { a } else { a + along * share })
 }
 
 /// The pieces of an edge between points, in the direction of its curve; the first keeps the edge's number.
