@@ -213,8 +213,6 @@ def directory_lines(entity: Entity, first: int, count: int) -> list[str]:
         return "".join(f"{value:>8}" for value in values)
 
     return [
-        fields(
-            entity.kind, first, entity.structure, 0, entity.level, 0, entity.transformation, 0, entity.status
-        ),
+        fields(entity.kind, first, entity.structure, 0, entity.level, 0, entity.transformation, 0, entity.status),
         fields(entity.kind, 0, entity.color, count, entity.form, "", "", entity.label, entity.subscript),
     ]

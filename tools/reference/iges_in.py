@@ -12,7 +12,7 @@ from OCP.IGESControl import IGESControl_Reader
 from OCP.Interface import Interface_Static
 from OCP.ShapeAnalysis import ShapeAnalysis_Shell
 from OCP.TopAbs import TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
-from OCP.TopoDS import TopoDS, TopoDS_Builder, TopoDS_Compound, TopoDS_Shape
+from OCP.TopoDS import TopoDS, TopoDS_Builder, TopoDS_Compound, TopoDS_Shape, TopoDS_Shell
 
 import exact
 from reference import ROUND_TRIP, disagreements, face_disagreements, measure, settled
@@ -67,7 +67,11 @@ class IgesFile:
         for shell in exact.subshapes(sewed, TopAbs_SHELL):
             builder.Add(compound, solid_of(shell))
         for face in exact.subshapes(sewed, TopAbs_FACE, TopAbs_SHELL):
-            builder.Add(compound, face)
+            # A surface that closes on itself is sewn to nothing.
+            shell = TopoDS_Shell()
+            builder.MakeShell(shell)
+            builder.Add(shell, face)
+            builder.Add(compound, face if has_free_edges(shell) else solid_of(shell))
         for edge in exact.free_edges(self.shape):
             builder.Add(compound, edge)
         return compound
@@ -100,7 +104,7 @@ def seen_in_iges(reference: dict, path: Path) -> list[str]:
         found = measure(shape, exact.bounding_box(file.shape))
     except Exception as error:
         return [f"reads nothing ({type(error).__name__})"]
-    notes = disagreements({"faces": found["faces"], "solids": 0, "closed": False, **reference}, found)
+    notes = disagreements({**found, **reference}, found)
     return notes or finer(reference, found, file)
 
 

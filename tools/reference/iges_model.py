@@ -1,16 +1,15 @@
-"""IGES models written by hand: a few words over `Deck` for curves, surfaces and faces, and the reference beside them."""
+"""IGES models written by hand: words over `Deck` for curves, surfaces and faces, and the reference beside them."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from math import dist
+from dataclasses import dataclass
 
 import numpy as np
 
 from iges_deck import BLANKED, IN_PARAMETERS, PART, Deck
 from plane_curves import Spline
 from spline_patch import Patch
-from step_model import ORIGIN, X, Y, Z, Point, cross, plus, polygon_figures, times, unit
+from step_model import ORIGIN, Z, Point, plus, polygon_figures
 from surface_figures import Piece
 
 IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0))
@@ -167,9 +166,7 @@ class IgesModel(Deck):
         """Type 142; a plain pointer is a curve in space and nothing else."""
         if isinstance(boundary, int):
             boundary = Boundary(boundary)
-        return self.add(
-            142, [0, surface, boundary.parameter, boundary.model, boundary.preference], status=PART
-        )
+        return self.add(142, [0, surface, boundary.parameter, boundary.model, boundary.preference], status=PART)
 
     def trimmed(self, surface: int, outer: Boundary | int | None, inner=(), **options) -> int:
         """Type 144; without an outer boundary the surface's own sides are it."""
@@ -245,7 +242,10 @@ class IgesModel(Deck):
 def around(boxes) -> list:
     """The box around boxes or sets of points."""
     corners = [corner for box in boxes for corner in box]
-    return [[float(min(c[k] for c in corners)) for k in range(3)], [float(max(c[k] for c in corners)) for k in range(3)]]
+    return [
+        [float(min(c[k] for c in corners)) for k in range(3)],
+        [float(max(c[k] for c in corners)) for k in range(3)],
+    ]
 
 
 def box_sides(low, high) -> list[tuple]:

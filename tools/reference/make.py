@@ -21,6 +21,7 @@ from broken.expected import write_all as write_broken  # noqa: E402
 from exact import bounding_box, faces  # noqa: E402
 from freecad_run import make_all as make_freecad  # noqa: E402
 from iges_in import seen_in_iges  # noqa: E402
+from iges_out import WRITTEN, Written, make_written  # noqa: E402
 from mesh_out import write_meshes  # noqa: E402
 from readme import write_tables  # noqa: E402
 from reference import (  # noqa: E402
@@ -61,7 +62,7 @@ def make(fixture: Fixture) -> list[str]:
     return notes
 
 
-def emptied_folder(fixture: Fixture | HandWritten) -> Path:
+def emptied_folder(fixture: Fixture | HandWritten | Written) -> Path:
     """The fixture's folder, without what earlier runs left of it."""
     folder = FIXTURES_FOLDER / fixture.folder
     folder.mkdir(parents=True, exist_ok=True)
@@ -117,11 +118,18 @@ def seen_otherwise(reference: dict, step: Path) -> list[str]:
         return [f"reads nothing ({type(error).__name__})"]
 
 
-def make_aloud(fixture: Fixture | HandWritten) -> bool:
+def make_any(fixture: Fixture | HandWritten | Written) -> list[str]:
+    """Builds one fixture of any kind."""
+    if isinstance(fixture, Fixture):
+        return make(fixture)
+    return make_hand(fixture) if isinstance(fixture, HandWritten) else make_written(fixture, emptied_folder(fixture))
+
+
+def make_aloud(fixture: Fixture | HandWritten | Written) -> bool:
     """Builds one fixture and tells how it went."""
     started = time.monotonic()
     try:
-        notes = make(fixture) if isinstance(fixture, Fixture) else make_hand(fixture)
+        notes = make_any(fixture)
     except Exception:
         print(f"{fixture.folder}/{fixture.name}: FAILED\n{traceback.format_exc()}", flush=True)
         return False
@@ -158,7 +166,7 @@ def collect(running: dict[int, int], results: list[bool]) -> None:
 
 def main(words: list[str]) -> int:
     """Builds the fixtures whose folder/name contains one of the words, or all."""
-    known = [*FIXTURES.values(), *HAND.values()]
+    known = [*FIXTURES.values(), *HAND.values(), *WRITTEN.values()]
     chosen = [f for f in known if not words or any(word in f"{f.folder}/{f.name}" for word in words)]
     make_freecad(FIXTURES_FOLDER / "freecad", words)
     if not words or "broken" in words:

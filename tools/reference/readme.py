@@ -11,7 +11,11 @@ FOLDERS = {
     "freecad": "Made with FreeCAD",
     "hand": "Written by hand",
     "sloppy": "Sloppy files",
+    "iges": "IGES written by hand",
+    "iges_opencascade": "IGES written by OpenCASCADE",
 }
+#: Folders whose tables tell where OpenCASCADE differs.
+DIFFERING = ("hand", "sloppy", "iges")
 
 
 def write_tables(fixtures: Path) -> None:
@@ -28,7 +32,7 @@ def write_tables(fixtures: Path) -> None:
 def table(folder: Path) -> str:
     """One row per reference: what it shows, and where OpenCASCADE differs."""
     rows = []
-    differing = folder.name in ("hand", "sloppy")
+    differing = folder.name in DIFFERING
     for path in sorted(folder.glob("*.reference.json")):
         reference = json.loads(path.read_text(encoding="utf-8"))
         name = path.name.removesuffix(".reference.json")

@@ -16,7 +16,7 @@ ORDER = 40
 
 @dataclass
 class Piece:
-    """`at` takes arrays u and v of one shape and returns points of that shape and three; it is smooth between breaks."""
+    """`at` takes arrays u and v of one shape and returns points of that shape and three, smooth between breaks."""
 
     at: Callable[[np.ndarray, np.ndarray], np.ndarray]
     u_breaks: tuple
@@ -145,3 +145,19 @@ def patch_at(patch) -> Callable:
         return np.array(found).reshape((*np.shape(u), 3))
 
     return at
+
+
+def placed(piece: Piece, rows) -> Piece:
+    """A piece under a transformation of three rows of four."""
+    matrix, shift = np.array(rows, float)[:, :3], np.array(rows, float)[:, 3]
+    return Piece(lambda u, v: piece.at(u, v) @ matrix.T + shift, piece.u_breaks, piece.v_breaks)
+
+
+def flat_polygon(points) -> list[Piece]:
+    """A plane polygon that is convex, as triangles."""
+    corners = [np.array(p, float) for p in points]
+    fans = []
+    for b, c in zip(corners[1:], corners[2:]):
+        at = lambda u, v, a=corners[0], b=b, c=c: a + u[..., None] * ((b - a) + v[..., None] * (c - b))  # noqa: E731
+        fans.append(Piece(at, (0.0, 1.0), (0.0, 1.0)))
+    return fans

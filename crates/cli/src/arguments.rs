@@ -9,7 +9,7 @@ use trimloop_mesh::{LinearDeflection, MeshOptions};
 
 use crate::quantity;
 
-/// Converts STEP files to glTF: watertight, coloured, named, with the truth about every face.
+/// Converts STEP and IGES files to glTF: watertight, coloured, named, with the truth about every face.
 #[derive(Debug, Parser)]
 #[command(name = "trimloop", version, max_term_width = 100)]
 #[command(
@@ -25,10 +25,10 @@ pub struct Arguments {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Convert STEP files to glTF (.glb or .gltf)
+    /// Convert STEP and IGES files to glTF (.glb or .gltf)
     #[command(after_help = CONVERT_EXAMPLES)]
     Convert(ConvertArguments),
-    /// Show what is in STEP files: assembly tree, units, bodies, surfaces, colours
+    /// Show what is in STEP and IGES files: assembly tree, units, bodies, surfaces, colours
     #[command(after_help = INSPECT_EXAMPLES)]
     Inspect(InspectArguments),
     /// Print a completion script for a shell
@@ -67,7 +67,7 @@ Examples:
 /// `trimloop convert`.
 #[derive(Args, Debug)]
 pub struct ConvertArguments {
-    /// STEP files (.step, .stp, .p21, also packed as .stpz or .stp.gz)
+    /// STEP files (.step, .stp, .p21, also packed as .stpz or .stp.gz) and IGES files (.igs, .iges)
     #[arg(value_name = "INPUT", required = true)]
     pub inputs: Vec<PathBuf>,
 
@@ -192,7 +192,7 @@ impl ConvertArguments {
 /// `trimloop inspect`.
 #[derive(Args, Debug)]
 pub struct InspectArguments {
-    /// STEP files (.step, .stp, .p21, also packed as .stpz or .stp.gz)
+    /// STEP files (.step, .stp, .p21, also packed as .stpz or .stp.gz) and IGES files (.igs, .iges)
     #[arg(value_name = "INPUT", required = true)]
     pub inputs: Vec<PathBuf>,
 

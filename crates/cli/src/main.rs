@@ -1,4 +1,4 @@
-//! The `trimloop` command: CAD files (STEP) to glTF, and what is in them.
+//! The `trimloop` command: CAD files (STEP and IGES) to glTF, and what is in them.
 
 mod arguments;
 mod contained;

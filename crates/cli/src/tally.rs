@@ -120,6 +120,13 @@ fn of_part(part: &Part, mesh: &PartMesh, written: &WrittenPart) -> Tally {
         }
     }
     for shell in &mesh.shells {
+        let of_body = part.bodies.get(shell.body).and_then(|body| body.shells.get(shell.shell));
+        let is_hidden = of_body.is_some_and(|shell| {
+            !shell.faces.is_empty() && shell.faces.iter().all(|used| part.faces[used.face as usize].hidden)
+        });
+        if is_hidden {
+            continue;
+        }
         let closed = shell.open_edges == 0;
         *(if closed { &mut tally.closed_shells } else { &mut tally.open_shells }) += 1;
         tally.non_manifold_edges += shell.non_manifold_edges;

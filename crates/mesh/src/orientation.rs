@@ -1,7 +1,8 @@
 //! Which faces must be turned so that a shell's triangles all face the same way, outwards where it is closed.
 
 use glam::DVec3;
-use trimloop_brep::{BodyKind, EntityRef, Part, Shell};
+use trimloop_brep::{Body, BodyKind, EntityRef, Part, Shell};
+use trimloop_geom::Aabb;
 
 use crate::draft::FaceDraft;
 
@@ -28,7 +29,54 @@ impl Orientation {
                 out.settle(shell, body.kind == BodyKind::Solid, drafts, shared);
             }
         }
+        out.turn_cavities(part, drafts, shared);
         out
+    }
+
+    /// Closed shells that were put together from loose faces may be the walls of a cavity in another: those that lie
+    /// within an odd number of others face inwards.
+    fn turn_cavities(&mut self, part: &Part, drafts: &[FaceDraft], shared: &[DVec3]) {
+        let is_made = |body: &&Body| body.kind == BodyKind::Solid && body.entity == EntityRef::None;
+        let made: Vec<Vec<usize>> = part
+            .bodies
+            .iter()
+            .filter(is_made)
+            .map(|body| body.shells.iter().flat_map(|s| &s.faces).map(|f| f.face as usize).collect())
+            .collect();
+        let corners = |faces: &[usize]| -> Vec<DVec3> {
+            let drafts = faces.iter().map(|&face| &drafts[face]);
+            drafts.flat_map(|draft| draft.vertices.iter().map(|v| draft.position(v.point, shared))).collect()
+        };
+        let boxes: Vec<Aabb> = made.iter().map(|faces| Aabb::from_points(corners(faces))).collect();
+        for (k, faces) in made.iter().enumerate() {
+            let holds = |other: &Aabb| {
+                other.min.cmplt(boxes[k].min).all() && other.max.cmpgt(boxes[k].max).all()
+            };
+            let around: Vec<usize> = (0..made.len()).filter(|&other| other != k && holds(&boxes[other])).collect();
+            let Some(point) = corners(faces).first().copied().filter(|_| !around.is_empty()) else { continue };
+            let within = around.iter().filter(|&&other| self.contains(&made[other], point, drafts, shared));
+            if within.count() % 2 == 1 {
+                faces.iter().for_each(|&face| self.turned[face] ^= true);
+            }
+        }
+    }
+
+    /// Whether a closed shell's triangles go round a point: by the solid angles that they are seen under (van Oosterom
+    /// and Strackee 1983).
+    fn contains(&self, faces: &[usize], point: DVec3, drafts: &[FaceDraft], shared: &[DVec3]) -> bool {
+        let angle = |draft: &FaceDraft, t: &[u32; 3]| {
+            let [a, b, c] =
+                t.map(|i| draft.position(draft.vertices[i as usize].point, shared) - point);
+            let [la, lb, lc] = [a, b, c].map(DVec3::length);
+            let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+            2.0 * a.dot(b.cross(c)).atan2(below)
+        };
+        let of_face = |&face: &usize| {
+            let sum: f64 = drafts[face].triangles.iter().map(|t| angle(&drafts[face], t)).sum();
+            if self.turned[face] { -sum } else { sum }
+        };
+        let sum: f64 = faces.iter().map(of_face).sum();
+        sum.abs() > std::f64::consts::TAU
     }
 
     fn settle(&mut self, shell: &Shell, solid: bool, drafts: &[FaceDraft], shared: &[DVec3]) {

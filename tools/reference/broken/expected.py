@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Callable
 
+from iges_deck import Deck
 from part21 import Part21
 
 
@@ -46,7 +47,7 @@ def write_all(folder: Path) -> None:
         old.unlink()
     for name, (_, build) in BROKEN.items():
         content = build()
-        if isinstance(content, Part21):
+        if isinstance(content, (Part21, Deck)):
             content = content.text()
         (folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
     lines = [json.dumps({k: v for k, v in asdict(entry).items() if v is not None}) for entry, _ in BROKEN.values()]

@@ -1,3 +1,14 @@
 """Hand-written IGES files, one module per theme."""
 
-from iges import loose  # noqa: F401
+from iges import (  # noqa: F401
+    curves,
+    looks,
+    loose,
+    placement,
+    primitives,
+    solids,
+    structure,
+    surfaces,
+    syntax,
+    trimming,
+)

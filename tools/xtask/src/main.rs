@@ -80,13 +80,16 @@ fn fuzz(root: &Path, target: &str, minutes: u32) -> anyhow::Result<()> {
     std::fs::create_dir_all(&corpus)?;
     std::fs::create_dir_all(&seeds)?;
     // The whole path starts from the fixtures; small ones, as every input is run thousands of times.
-    for fixture in fixture::all().into_iter().filter(|_| target == "mesh") {
+    let is_iges = |path: &Path| path.extension().is_some_and(|extension| extension == "igs");
+    let starts = |path: &Path| target == if is_iges(path) { "iges" } else { "mesh" };
+    for fixture in fixture::all().into_iter().filter(|fixture| starts(&fixture.path)) {
         if std::fs::metadata(&fixture.path)?.len() < 24 << 10 {
             std::fs::copy(&fixture.path, corpus.join(fixture.name.replace('/', "-")))?;
         }
     }
     let seconds = format!("-max_total_time={}", 60 * minutes);
-    let limits = ["-dict=fuzz/part21.dict", "-timeout=10", "-rss_limit_mb=2048", &seconds].map(OsStr::new);
+    let dictionary = if target == "iges" { "-dict=fuzz/iges.dict" } else { "-dict=fuzz/part21.dict" };
+    let limits = [dictionary, "-timeout=10", "-rss_limit_mb=2048", &seconds].map(OsStr::new);
     let run = ["+nightly", "fuzz", "run", "-O", target].map(OsStr::new);
     cargo(
         root,

@@ -5,8 +5,10 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use trimloop_brep::{
-    Body, BodyKind, Diagnostic, Edge, EdgeId, EntityRef, FaceId, Part, Severity, Shell, ShellFace,
+    Body, BodyKind, Diagnostic, Edge, EdgeId, EntityRef, Face, FaceGeometry, FaceId, Part, Severity, Shell,
+    ShellFace,
 };
+use trimloop_geom::Surface;
 
 use super::look::levels_of;
 use super::shape::ShapeBuilder;
@@ -30,8 +32,8 @@ impl ShapeBuilder<'_> {
             let mut uses = vec![0u32; self.part.edges.len()];
             let open = free_edges(&self.part, &made, &mut uses);
             let faces = made.shells[0].faces.clone();
-            let has_edges = |face: FaceId| !self.part.faces[face as usize].loops.is_empty();
-            if open.is_empty() && faces.iter().any(|it| has_edges(it.face)) {
+            let is_closed = |it: &ShellFace| is_closed(&self.part.faces[it.face as usize]);
+            if open.is_empty() && faces.iter().all(is_closed) {
                 made.kind = BodyKind::Solid;
                 made.shells[0].closed = true;
             } else if faces.len() > 1 && !open.is_empty() {
@@ -51,6 +53,13 @@ impl ShapeBuilder<'_> {
             self.part.bodies.push(made);
         }
     }
+}
+
+/// Whether a face has edges, or needs none: a whole ball or torus.
+fn is_closed(face: &Face) -> bool {
+    let FaceGeometry::Surface(surface) = &face.geometry else { return false };
+    let closes = matches!(**surface, Surface::Sphere { .. }) || surface.periods().iter().all(Option::is_some);
+    closes || !face.loops.is_empty()
 }
 
 /// Makes the faces share the edges that coincide, whole or in part.

@@ -65,6 +65,17 @@ impl BoundDraft {
     }
 }
 
+impl BoundDraft {
+    /// The loop as it is, or run the other way where the normal that it runs around is not `same`.
+    fn about(mut self, same: bool) -> Self {
+        if !same {
+            self.pieces.reverse();
+            self.pieces.iter_mut().for_each(|(_, turned)| *turned ^= true);
+        }
+        self
+    }
+}
+
 impl FaceReader<'_> {
     /// Types 143, 144, or a surface without any trimming.
     pub fn read(&self, entry: u32) -> Outcome<FaceDraft> {
@@ -118,7 +129,8 @@ impl FaceReader<'_> {
                 let (surface, domain) =
                     ground.untrimmed().ok_or_else(|| parameters.fault("never ends, and has no bounds"))?;
                 let surface = Arc::new(surface);
-                let bounds = natural_bound(&surface, domain, entry).into_iter().collect();
+                let bound = natural_bound(&surface, domain, entry);
+                let bounds = bound.map(|bound| bound.about(!ground.reversed)).into_iter().collect();
                 Ok(FaceDraft { surface, same_sense: !ground.reversed, bounds })
             }
         }
@@ -134,14 +146,21 @@ impl FaceReader<'_> {
             let (whole, domain) =
                 whole.ok_or_else(|| Fault::new(surface, "never ends, and has no outer boundary"))?;
             let whole = Arc::new(whole);
-            bounds.extend(natural_bound(&whole, domain, surface));
+            bounds.extend(natural_bound(&whole, domain, surface).map(|bound| bound.about(!ground.reversed)));
             whole
         };
+        let has_pole = !exact.singularities().is_empty();
         let mut on_model = true;
         for (k, &boundary) in boundaries.iter().enumerate() {
             let pieces = self.boundary(boundary, &ground, &exact)?;
             on_model &= pieces.iter().all(|piece| !matches!(piece.curve, Curve::OnSurface { .. }));
-            bounds.push(BoundDraft::new(pieces, boundary, has_outer && k == 0)?);
+            let is_outer = has_outer && k == 0;
+            let mut bound = BoundDraft::new(pieces, boundary, is_outer)?;
+            // Round a pole there are two ways, and which one is meant only the direction tells.
+            if has_pole && let Some(area) = self.plane_area(boundary, &ground) {
+                bound = bound.about((area > 0.0) == is_outer).about(!ground.reversed);
+            }
+            bounds.push(bound);
         }
         let exact = if has_outer && on_model { Arc::new(ground.simplified()) } else { exact };
         Ok(FaceDraft { surface: exact, same_sense: !ground.reversed, bounds })
@@ -179,6 +198,53 @@ impl FaceReader<'_> {
         }
     }
 
+    /// The area within a boundary in the parameter plane, negative where it runs clockwise; nothing where it has no
+    /// curves there.
+    fn plane_area(&self, boundary: u32, ground: &Ground) -> Option<f64> {
+        let entries = self.plane_curves(boundary).ok()?;
+        let mut pieces = Vec::new();
+        for entry in entries {
+            pieces.extend(self.reader.parameter_curve(entry).ok()?);
+        }
+        let points: Vec<DVec3> = chained(pieces)
+            .iter()
+            .flat_map(|piece| (0..16).map(|k| piece.curve.point(piece.range.at(f64::from(k) / 16.0))))
+            .map(|point| ground.parameters.transform_point3(point))
+            .collect();
+        let origin = *points.first()?;
+        let pairs = points.iter().zip(points.iter().cycle().skip(1));
+        let area: f64 = pairs.map(|(a, b)| (*a - origin).cross(*b - origin).z).sum();
+        (area != 0.0).then_some(area)
+    }
+
+    /// The curves of a boundary (types 141 and 142) in the parameter plane.
+    fn plane_curves(&self, entry: u32) -> Outcome<Vec<u32>> {
+        let mut parameters = self.reader.parameters(entry)?;
+        let mut out = Vec::new();
+        match parameters.directory.entity_type {
+            142 => {
+                parameters.integer()?;
+                parameters.pointer()?;
+                out.push(parameters.pointer()?);
+            }
+            141 => {
+                parameters.integer()?;
+                parameters.integer()?;
+                parameters.pointer()?;
+                for _ in 0..parameters.count(3)? {
+                    parameters.pointer()?;
+                    parameters.integer()?;
+                    for _ in 0..parameters.count(1)? {
+                        out.push(parameters.pointer()?);
+                    }
+                }
+            }
+            _ => {}
+        }
+        out.retain(|&entry| entry != 0);
+        Ok(out)
+    }
+
     /// The model curve where it is there and lies on the surface, else the one in the parameter plane.
     fn either(
         &self,
@@ -193,8 +259,9 @@ impl FaceReader<'_> {
             0 => Err(parameters.fault("has no curve in the model")),
             entry => self.reader.curve(entry),
         };
-        let reach = self.uncertainty_mm.max(1e-3) * if prefers_plane { 1.0 } else { 100.0 };
+        let reach = self.uncertainty_mm.max(1e-3) * if prefers_plane { 10.0 } else { 100.0 };
         if let Ok(pieces) = &model
+            && !prefers_plane
             && pieces.iter().all(|piece| lies_on(piece, surface, reach))
         {
             return model;
@@ -210,7 +277,12 @@ impl FaceReader<'_> {
                 Err(fault) => return model.map_err(|_| fault),
             }
         }
-        if out.is_empty() { model } else { Ok(out) }
+        // Where both say the same, the curve in the model is the one that neighbours have too.
+        match &model {
+            Ok(pieces) if out.is_empty() || prefers_plane && are_alike(pieces, &out, reach) => model,
+            _ if out.is_empty() => model,
+            _ => Ok(out),
+        }
     }
 }
 
@@ -252,6 +324,23 @@ fn lies_on(piece: &Piece, surface: &Surface, reach: f64) -> bool {
         let point = piece.curve.point(piece.range.at(share));
         surface.project(point, None).distance <= reach
     })
+}
+
+/// Whether two chains run over the same points.
+fn are_alike(a: &[Piece], b: &[Piece], reach: f64) -> bool {
+    let at = |piece: &Piece, share: f64| piece.curve.point(piece.range.at(share));
+    let near = |a: &Piece, b: &Piece| {
+        let apart = |turned: bool| {
+            let shares = [0.0, 0.5, 1.0].into_iter();
+            shares.map(move |s| at(a, s).distance(at(b, if turned { 1.0 - s } else { s }))).fold(0.0, f64::max)
+        };
+        let middle = || b.curve.project(at(a, 0.5), None).distance;
+        let ends = |turned: bool| {
+            at(a, 0.0).distance(at(b, f64::from(u8::from(turned)))).max(at(a, 1.0).distance(at(b, f64::from(u8::from(!turned)))))
+        };
+        apart(false).min(apart(true)) <= reach || (ends(false).min(ends(true)) <= reach && middle() <= reach)
+    };
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| near(a, b))
 }
 
 /// Whether a piece is all at one point.

@@ -229,7 +229,7 @@ impl<'r, 'f> Builder<'r, 'f> {
     fn own_name(&self, entry: u32, kind: i32) -> Option<String> {
         if is_solid(kind) {
             name_of(self.reader, entry)
-        } else if kind == 143 || kind == 144 || SURFACES.contains(&kind) {
+        } else if matches!(kind, 143 | 144 | 510) || SURFACES.contains(&kind) {
             property_name(self.reader, entry)
         } else {
             None
@@ -320,7 +320,7 @@ fn is_known(directory: &DirectoryEntry) -> bool {
         108 => directory.form == 1,
         106 => matches!(directory.form, 1..=3 | 11..=13 | 63),
         190 | 192 | 194 => false,
-        116 | 143 | 144 | 180 | 186 | 514 => true,
+        116 | 143 | 144 | 180 | 186 | 510 | 514 => true,
         402 => is_group(directory),
         kind => {
             SURFACES.contains(&kind)
@@ -335,7 +335,7 @@ fn is_known(directory: &DirectoryEntry) -> bool {
 fn is_silent(directory: &DirectoryEntry) -> bool {
     matches!(
         directory.entity_type,
-        0 | 106 | 108 | 123 | 124 | 141 | 142 | 190..=194 | 302..=320 | 400..=499 | 502..=510
+        0 | 106 | 108 | 123 | 124 | 141 | 142 | 190..=194 | 302..=320 | 400..=499 | 502..=508
     )
 }
 

@@ -84,6 +84,7 @@ impl<'f> SceneBuilder<'f> {
                             builder.add_loose(entry, color, face);
                         }
                     }
+                    Kind::BrepFace => builder.add_brep_face(entry, color),
                     Kind::Solid => builder.add_solid(entry, color),
                     Kind::Primitive => builder.add_primitive(entry, color),
                     Kind::Boolean => builder.add_boolean(entry, color),
@@ -213,6 +214,8 @@ fn entity_of(entry: u32) -> EntityRef {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Face,
+    /// A face with edges that it may share.
+    BrepFace,
     Solid,
     Primitive,
     Boolean,
@@ -228,6 +231,7 @@ fn kind_of(reader: &Reader<'_>, entry: u32) -> Kind {
         116 => Kind::Points,
         180 => Kind::Boolean,
         186 | 514 => Kind::Solid,
+        510 => Kind::BrepFace,
         kind if PRIMITIVES.contains(&kind) => Kind::Primitive,
         kind if CURVES.contains(&kind) => Kind::Curve,
         _ => Kind::Face,

@@ -12,7 +12,7 @@ use super::curve::Piece;
 use super::face::{BoundDraft, FaceDraft};
 use super::look::name_of;
 use super::reader::{Outcome, Reader};
-use super::solid::Lists;
+use super::solid::{Lists, SharedEdges};
 
 /// A part in the making.
 pub(crate) struct ShapeBuilder<'f> {
@@ -21,6 +21,8 @@ pub(crate) struct ShapeBuilder<'f> {
     pub diagnostics: Diagnostics,
     /// Lists of edges and vertices that were read already.
     pub lists: Lists,
+    /// The edges that faces share which stand in no shell.
+    pub loose_edges: SharedEdges,
     /// The faces that came one by one.
     pub loose: Vec<FaceId>,
     /// The group that is being filled.
@@ -40,6 +42,7 @@ impl<'f> ShapeBuilder<'f> {
             part,
             diagnostics: Vec::new(),
             lists: Lists::default(),
+            loose_edges: SharedEdges::default(),
             loose: Vec::new(),
             group: 0,
             face_groups: Vec::new(),

@@ -28,6 +28,15 @@ impl ShapeBuilder<'_> {
         }
     }
 
+    /// Adds a face (type 510) that stands in no shell; such faces share their edges.
+    pub fn add_brep_face(&mut self, entry: u32, color: Option<Rgba>) {
+        let mut shared = std::mem::take(&mut self.loose_edges);
+        let face = self.face(entry, color, |builder| builder.shell_face(entry, &mut shared));
+        self.loose_edges = shared;
+        self.hide_blanked(entry, face);
+        self.loose.push(face);
+    }
+
     /// Moves what was added since there were so many faces, edges and vertices by a solid's own matrix, which holds for
     /// all that the solid is made of.
     fn place(&mut self, entry: u32, [faces, edges, vertices]: [usize; 3]) -> Outcome<()> {
@@ -187,7 +196,7 @@ impl ShapeBuilder<'_> {
 
 /// Edges and vertices of lists that a body has already.
 #[derive(Default)]
-struct SharedEdges {
+pub(crate) struct SharedEdges {
     edges: FxHashMap<(u32, usize), u32>,
     vertices: FxHashMap<(u32, u32), VertexId>,
 }

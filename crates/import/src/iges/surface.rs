@@ -172,6 +172,8 @@ impl Reader<'_> {
     fn elementary(&self, parameters: &mut Parameters<'_>) -> Outcome<Ground> {
         let kind = parameters.directory.entity_type;
         let at = self.triple(parameters.pointer()?, &[116], "point")?;
+        // Only form 1 goes on with the directions that fix the parameters.
+        let is_parametrised = parameters.directory.form == 1;
         let radius_first = kind == 196;
         let mut radius = if radius_first { parameters.real()? } else { 0.0 };
         let direction = |parameters: &mut Parameters<'_>, or: DVec3| -> Outcome<DVec3> {
@@ -180,7 +182,8 @@ impl Reader<'_> {
                 entry => self.triple(entry, &[123], "direction"),
             }
         };
-        let axis = direction(parameters, DVec3::Z)?;
+        let has_axis = kind != 196 || is_parametrised;
+        let axis = if has_axis { direction(parameters, DVec3::Z)? } else { DVec3::Z };
         let mut second = 0.0;
         if matches!(kind, 192 | 194 | 198) {
             radius = parameters.real()?;
@@ -188,7 +191,9 @@ impl Reader<'_> {
         if matches!(kind, 194 | 198) {
             second = parameters.real()?;
         }
-        let frame = Frame::new(at, axis, direction(parameters, axis.any_orthogonal_vector())?);
+        let across = axis.any_orthogonal_vector();
+        let across = if is_parametrised { direction(parameters, across)? } else { across };
+        let frame = Frame::new(at, axis, across);
         let surface = match kind {
             190 => Surface::Plane { frame },
             192 => Surface::Cylinder { frame, radius },
