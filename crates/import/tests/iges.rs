@@ -1,6 +1,7 @@
 //! IGES files: loose trimmed faces become a closed body.
 
-use trimloop_brep::{BodyKind, EntityRef, FaceGeometry, Severity};
+use glam::DVec3;
+use trimloop_brep::{BodyKind, EntityRef, FaceGeometry, Model, Severity};
 use trimloop_iges::IgesFile;
 use trimloop_import::import_iges;
 
@@ -16,6 +17,11 @@ struct Deck {
 impl Deck {
     /// Adds an entity; gives its pointer.
     fn add(&mut self, kind: u32, status: &str, color: i32, parameters: &str) -> usize {
+        self.add_form(kind, 0, status, color, parameters)
+    }
+
+    /// Adds an entity of a form; gives its pointer.
+    fn add_form(&mut self, kind: u32, form: u32, status: &str, color: i32, parameters: &str) -> usize {
         let entry = 2 * self.entities + 1;
         self.entities += 1;
         let text = format!("{kind},{parameters};");
@@ -29,7 +35,7 @@ impl Deck {
         }
         let (first, count) = (self.lines + 1, pieces.len());
         let one = format!("{kind:>8}{first:>8}{:>48}{status}", 0);
-        let two = format!("{kind:>8}{:>8}{color:>8}{count:>8}{:>8}", 0, 0);
+        let two = format!("{kind:>8}{:>8}{color:>8}{count:>8}{form:>8}", 0);
         self.directory += &format!("{one:<72}D{entry:>7}\n{two:<72}D{:>7}\n", entry + 1);
         for piece in pieces {
             self.lines += 1;
@@ -114,4 +120,170 @@ fn a_face_that_cannot_be_read_costs_itself_alone() {
     assert_eq!(faces[6].entity, EntityRef::Iges(lost as u32));
     let [diagnostic] = &model.diagnostics[..] else { panic!("{:?}", model.diagnostics) };
     assert_eq!((diagnostic.severity, diagnostic.code), (Severity::Error, "face-unreadable"));
+}
+
+/// The model of a deck whose file has no errors.
+fn model(deck: &Deck) -> Model {
+    let text = deck.text();
+    let file = IgesFile::parse(text.as_bytes()).expect("a file");
+    assert_eq!(file.errors(), []);
+    import_iges(&file).expect("a model")
+}
+
+/// The names of the tree's nodes and of their uses, indented by level.
+fn tree(model: &Model) -> Vec<String> {
+    let mut out = Vec::new();
+    let mut stack: Vec<(usize, usize)> = model.roots.iter().map(|&root| (root, 0)).collect();
+    while let Some((index, depth)) = stack.pop() {
+        let node = &model.nodes[index];
+        let instance = node.instance_name.as_ref().map(|name| format!(" ({name})")).unwrap_or_default();
+        out.push(format!("{}{}{instance}", "  ".repeat(depth), node.name));
+        stack.extend(node.children.iter().rev().map(|&child| (child, depth + 1)));
+    }
+    out
+}
+
+fn name(deck: &mut Deck, text: &str) -> usize {
+    deck.add_form(406, 15, "00010000", 0, &format!("1,{}H{text}", text.len()))
+}
+
+#[test]
+fn subfigures_are_placed_as_often_as_they_are_used() {
+    let mut deck = Deck::default();
+    let block = deck.add(150, "00010000", 0, "1.,1.,1.,0.,0.,0.,1.,0.,0.,0.,0.,1.");
+    let definition = deck.add(308, "00000200", 0, &format!("0,4Hbolt,1,{block}"));
+    let left = name(&mut deck, "left");
+    deck.add(408, "00000000", 0, &format!("{definition},0.,0.,0.,1.,0,1,{left}"));
+    deck.add(408, "00000000", 0, &format!("{definition},5.,0.,0.,2."));
+    let model = model(&deck);
+    assert_eq!(tree(&model), ["cube", "  bolt (left)", "  bolt"]);
+    assert_eq!((model.parts.len(), model.instance_counts()), (1, vec![2]));
+    let placed: Vec<_> = model.nodes[1..].iter().map(|node| node.transform).collect();
+    let corner = placed[1].transform_point3(DVec3::splat(25.4));
+    assert!(corner.distance(DVec3::new(7.0, 2.0, 2.0) * 25.4) < 1e-9, "scaled, then moved: {corner}");
+}
+
+#[test]
+fn a_subfigure_that_places_itself_is_shown_once() {
+    let mut deck = Deck::default();
+    let block = deck.add(150, "00010000", 0, "1.,1.,1.,0.,0.,0.,1.,0.,0.,0.,0.,1.");
+    let definition = 5;
+    let inner = deck.add(408, "00010000", 0, &format!("{definition},0.,0.,0.,1."));
+    assert_eq!(deck.add(308, "00000200", 0, &format!("0,4Hloop,2,{block},{inner}")), definition);
+    deck.add(408, "00000000", 0, &format!("{definition},0.,0.,0.,1."));
+    let model = model(&deck);
+    assert_eq!(tree(&model), ["cube", "  loop"]);
+    let cycles = model.diagnostics.iter().filter(|d| d.code == "assembly-cycle").count();
+    assert_eq!(cycles, 1, "{:?}", model.diagnostics);
+}
+
+#[test]
+fn groups_and_names_are_nodes_and_a_body_stays_whole() {
+    let mut deck = Deck::default();
+    let corner = |k: usize| [(k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64];
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let faces: Vec<usize> = sides.map(|side| patch(&mut deck, side.map(corner), 0)).into();
+    let list = |faces: &[usize]| faces.iter().map(usize::to_string).collect::<Vec<_>>().join(",");
+    let block = deck.add(150, "00000000", 0, "1.,1.,1.,9.,0.,0.,1.,0.,0.,0.,0.,1.");
+    // The cube's faces stand in two groups of one group.
+    let parts = [&faces[..2], &faces[2..]].map(|part| {
+        deck.add_form(402, 7, "00000000", 0, &format!("{},{}", part.len(), list(part)))
+    });
+    let label = name(&mut deck, "housing");
+    deck.add_form(402, 7, "00000000", 0, &format!("3,{},{block},0,1,{label}", list(&parts)));
+    let model = model(&deck);
+    assert_eq!(tree(&model), ["cube", "  housing"]);
+    let [part] = &model.parts[..] else { panic!("{} parts", model.parts.len()) };
+    assert_eq!(part.name, "housing");
+    let kinds: Vec<BodyKind> = part.bodies.iter().map(|body| body.kind).collect();
+    assert_eq!(kinds, [BodyKind::Solid, BodyKind::Solid]);
+}
+
+#[test]
+fn what_stays_open_is_reported_with_its_gap() {
+    let mut deck = Deck::default();
+    patch(&mut deck, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]], 0);
+    patch(&mut deck, [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [1.0, 1.0, 0.0]], 0);
+    // A hundredth of an inch away from both.
+    patch(&mut deck, [[0.0, 1.01, 0.0], [1.0, 1.01, 0.0], [1.0, 2.0, 0.0], [0.0, 2.0, 0.0]], 0);
+    let model = model(&deck);
+    let [diagnostic] = &model.diagnostics[..] else { panic!("{:?}", model.diagnostics) };
+    assert_eq!((diagnostic.severity, diagnostic.code), (Severity::Warning, "open-edges"));
+    assert!(diagnostic.message.contains("6 edges of the 2 faces"), "{}", diagnostic.message);
+    assert!(diagnostic.message.contains("0.254 mm off"), "{}", diagnostic.message);
+}
+
+#[test]
+fn one_long_edge_meets_two_short_ones() {
+    let mut deck = Deck::default();
+    patch(&mut deck, [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]], 0);
+    patch(&mut deck, [[0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 2.0, 0.0], [0.0, 2.0, 0.0]], 0);
+    patch(&mut deck, [[1.0, 1.0, 0.0], [2.0, 1.0, 0.0], [2.0, 2.0, 0.0], [1.0, 2.0, 0.0]], 0);
+    let model = model(&deck);
+    let part = &model.parts[0];
+    assert_eq!(part.bodies.len(), 1, "they hang together");
+    let mut uses = vec![0; part.edges.len()];
+    let coedges = part.faces.iter().flat_map(|face| &face.loops).flat_map(|bound| &bound.coedges);
+    coedges.for_each(|coedge| uses[coedge.edge as usize] += 1);
+    assert_eq!(uses.iter().filter(|&&count| count == 2).count(), 3);
+    assert_eq!(part.faces[0].loops[0].coedges.len(), 5, "the long side is cut in two");
+}
+
+#[test]
+fn points_and_curves_are_free_where_nothing_uses_them() {
+    let mut deck = Deck::default();
+    deck.add(116, "00000000", 2, "1.,2.,3.,0");
+    deck.add(116, "00010000", 0, "9.,9.,9.,0");
+    deck.add(116, "01000000", 0, "9.,9.,9.,0");
+    deck.add(110, "00000000", 4, "0.,0.,0.,1.,0.,0.");
+    deck.add(110, "01000000", 0, "0.,0.,0.,9.,0.,0.");
+    let model = model(&deck);
+    let part = &model.parts[0];
+    assert_eq!((part.points.len(), part.curves.len()), (1, 1));
+    assert!(part.points[0].point.distance(DVec3::new(25.4, 50.8, 76.2)) < 1e-12);
+    assert_eq!(part.points[0].color.map(|c| [c.r, c.g, c.b]), Some([1.0, 0.0, 0.0]));
+}
+
+#[test]
+fn the_curve_that_a_face_prefers_is_the_one_that_counts() {
+    // A square in the plane of a patch of 10 by 10: in parameters from 0.2 to 0.4, in the model somewhere else.
+    let area = |preference: u32| {
+        let mut deck = Deck::default();
+        let corners = [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 10.0, 0.0], [10.0, 10.0, 0.0]];
+        let surface = format!(
+            "1,1,1,1,0,0,1,0,0,0.,0.,1.,1.,0.,0.,1.,1.,1.,1.,1.,1.,{},0.,1.,0.,1.",
+            coordinates(&corners)
+        );
+        let surface = deck.add(128, "00010000", 0, &surface);
+        let square = |deck: &mut Deck, low: f64, high: f64, status: &str| {
+            let p = [[low, low, 0.0], [high, low, 0.0], [high, high, 0.0], [low, high, 0.0]];
+            let sides = [[p[0], p[1]], [p[1], p[2]], [p[2], p[3]], [p[3], p[0]]];
+            let lines = sides.map(|side| deck.add(110, status, 0, &coordinates(&side)).to_string());
+            deck.add(102, status, 0, &format!("4,{}", lines.join(",")))
+        };
+        let in_plane = square(&mut deck, 0.2, 0.4, "00010500");
+        let in_model = square(&mut deck, 5.0, 9.0, "00010000");
+        let boundary = format!("0,{surface},{in_plane},{in_model},{preference}");
+        let boundary = deck.add(142, "00010000", 0, &boundary);
+        deck.add(144, "00000000", 0, &format!("{surface},1,0,{boundary}"));
+        let model = model(&deck);
+        let part = &model.parts[0];
+        let xs = part.vertices.iter().map(|vertex| vertex.point.x / 25.4);
+        xs.fold(0.0, f64::max)
+    };
+    assert!((area(1) - 4.0).abs() < 1e-9, "the curve in parameters");
+    assert!((area(2) - 9.0).abs() < 1e-9, "the curve in the model");
+}
+
+#[test]
+fn a_boolean_tree_is_lost_and_not_in_silence() {
+    let mut deck = cube([0; 6]);
+    let block = deck.add(150, "00010000", 0, "1.,1.,1.,9.,0.,0.,1.,0.,0.,0.,0.,1.");
+    let ball = deck.add(158, "00010000", 0, "1.,9.,0.,0.");
+    let tree = deck.add(180, "00000000", 0, &format!("3,-{block},-{ball},1"));
+    let model = model(&deck);
+    let lost: Vec<_> = model.parts.iter().flat_map(|part| &part.faces).collect();
+    let lost: Vec<_> = lost.iter().filter(|face| matches!(face.geometry, FaceGeometry::Unreadable(_))).collect();
+    assert_eq!(lost.len(), 1, "its operands are not shown by themselves");
+    assert_eq!(lost[0].entity, EntityRef::Iges(tree as u32));
 }

@@ -252,6 +252,15 @@ def shell_single():
     return model, model.reference()
 
 
+@iges("face_alone", "faces (510) that no shell uses, one of which calls itself dependent all the same")
+def face_alone():
+    model = IgesModel("face_alone")
+    brep = Brep(model)
+    brep.polygon((0.0, 0.0, 0.0), (30.0, 0.0, 0.0), (30.0, 20.0, 0.0), (0.0, 20.0, 0.0), status="00000000")
+    brep.polygon((0.0, 0.0, 9.0), (30.0, 0.0, 9.0), (30.0, 20.0, 9.0), (0.0, 20.0, 9.0))
+    return model, model.reference()
+
+
 @iges("shell_closed_alone", "a closed shell (514 form 1) that no solid uses")
 def shell_closed():
     model = IgesModel("shell_closed_alone")

@@ -225,6 +225,46 @@ def meridian(model: IgesModel, centre, radius: float, first: float, last: float)
     return model.arc(centre, *ends, transformation=model.matrix(rows))
 
 
+def meridian_conic(model: IgesModel, form: int, coefficients, start, end) -> int:
+    """A conic in the half plane at angle zero about the slanting axis; x is the radius, y the height."""
+    x, y = AXES[:, 0], AXES[:, 2]
+    rows = np.column_stack([x, y, np.cross(x, y), np.array(PLACE)])
+    values = [*map(float, coefficients), 0.0, *map(float, start), *map(float, end)]
+    return model.add(104, values, form=form, status=PART, transformation=model.matrix(rows))
+
+
+@iges("surface_120_parabola", "a whole turn of a parabola from its vertex on the axis: a paraboloid")
+def paraboloid():
+    model = IgesModel("surface_120_parabola")
+    curve = meridian_conic(model, 3, (1, 0, 0, 0, -12, 0), (0, 0), (9, 6.75))
+    entity = revolution(model, curve, 0.0, 2 * pi)
+    model.know_pieces(entity, "revolution", turned(lambda t: (t, t * t / 12), (0.0, 9.0), 0.0, 2 * pi))
+    return alone(model)
+
+
+@iges("surface_120_ellipse", "a quarter of an ellipse from the axis outward, a whole turn: half an ellipsoid")
+def half_ellipsoid():
+    model = IgesModel("surface_120_ellipse")
+    curve = meridian_conic(model, 1, (1 / 100, 0, 1 / 36, 0, 0, -1), (10, 0), (0, 6))
+    entity = revolution(model, curve, 0.0, 2 * pi)
+    profile = lambda t: (10 * np.cos(t), 6 * np.sin(t))  # noqa: E731
+    model.know_pieces(entity, "revolution", turned(profile, (0.0, pi / 2), 0.0, 2 * pi))
+    return alone(model)
+
+
+@iges("surface_120_hyperbola", "a part of a hyperbola that keeps off the axis, 5/6 of a turn: a cooling tower")
+def cooling_tower():
+    model = IgesModel("surface_120_hyperbola")
+    low, high = -1.0, 0.6
+    # The curve has no direction of its own but from start to end.
+    ends = [(5 * np.cosh(t), 8 * np.sinh(t)) for t in (low, high)]
+    curve = meridian_conic(model, 2, (1 / 25, 0, -1 / 64, 0, 0, -1), *ends)
+    entity = revolution(model, curve, 0.0, 5 / 3 * pi)
+    profile = lambda t: (5 * np.cosh(t), 8 * np.sinh(t))  # noqa: E731
+    model.know_pieces(entity, "revolution", turned(profile, (low, high), 0.0, 5 / 3 * pi))
+    return alone(model)
+
+
 @iges("surface_120_torus_part", "a surface of revolution of an arc that keeps off the axis, 3/4 of a turn")
 def torus_part():
     model = IgesModel("surface_120_torus_part")

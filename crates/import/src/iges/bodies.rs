@@ -27,9 +27,11 @@ impl ShapeBuilder<'_> {
             return;
         }
         sew(&mut self.part, &loose);
+        let mut uses = vec![0u32; self.part.edges.len()];
+        let all_open = free_edges(&self.part, &body(loose.clone()), &mut uses);
+        let samples = SampledEdges::new(&self.part, &all_open);
         for faces in components(&self.part, &loose) {
             let mut made = body(faces);
-            let mut uses = vec![0u32; self.part.edges.len()];
             let open = free_edges(&self.part, &made, &mut uses);
             let faces = made.shells[0].faces.clone();
             let is_closed = |it: &ShellFace| is_closed(&self.part.faces[it.face as usize]);
@@ -38,7 +40,7 @@ impl ShapeBuilder<'_> {
                 made.shells[0].closed = true;
             } else if faces.len() > 1 && !open.is_empty() {
                 let entity = self.part.faces[faces[0].face as usize].entity;
-                self.diagnostics.push(open_edges(&self.part, &open, faces.len(), entity));
+                self.diagnostics.push(open_edges(&samples, &open, faces.len(), entity));
             }
             let mut layers: Vec<String> = faces
                 .iter()
@@ -109,36 +111,44 @@ fn components(part: &Part, faces: &[FaceId]) -> Vec<Vec<FaceId>> {
     sets.into_values().collect()
 }
 
-/// More open edges than this are not held against each other.
-const MAX_COMPARED: usize = 2000;
-
 /// What is to be said of faces that hang together and do not close.
-fn open_edges(part: &Part, open: &[EdgeId], faces: usize, entity: EntityRef) -> Diagnostic {
+fn open_edges(samples: &SampledEdges, open: &[EdgeId], faces: usize, entity: EntityRef) -> Diagnostic {
     let mut message = format!(
         "{} edges of the {faces} faces that hang together with {entity} have no neighbour",
         open.len()
     );
-    match nearest_gap_mm(part, open) {
-        Some(gap) => message += &format!("; the nearest two lie up to {gap:.3} mm apart."),
+    match samples.nearest_gap_mm(open) {
+        Some(gap) => message += &format!("; the one that is nearest to another lies up to {gap:.3} mm off it."),
         None => message.push('.'),
     }
     Diagnostic::new(Severity::Warning, "open-edges", entity, message)
 }
 
-/// How far apart the two open edges are that come nearest to being one.
-fn nearest_gap_mm(part: &Part, open: &[EdgeId]) -> Option<f64> {
-    if open.len() > MAX_COMPARED {
-        return None;
+/// Start, middle and end of open edges.
+struct SampledEdges(FxHashMap<EdgeId, [DVec3; 3]>);
+
+/// More pairs of open edges than this are not held against each other.
+const MAX_COMPARED: usize = 4_000_000;
+
+impl SampledEdges {
+    fn new(part: &Part, open: &[EdgeId]) -> Self {
+        let samples = |edge: &Edge| [0.0, 0.5, 1.0].map(|share| edge.curve.point(edge.range.at(share)));
+        Self(open.iter().map(|&id| (id, samples(&part.edges[id as usize]))).collect())
     }
-    let samples = |edge: &Edge| -> [DVec3; 3] {
-        [0.0, 0.5, 1.0].map(|share| edge.curve.point(edge.range.at(share)))
-    };
-    let sampled: Vec<[DVec3; 3]> = open.iter().map(|&id| samples(&part.edges[id as usize])).collect();
-    let apart = |a: &[DVec3; 3], b: &[DVec3; 3]| {
-        let along = a[0].distance(b[0]).max(a[2].distance(b[2]));
-        let against = a[0].distance(b[2]).max(a[2].distance(b[0]));
-        along.min(against).max(a[1].distance(b[1]))
-    };
-    let gaps = sampled.iter().enumerate().flat_map(|(k, a)| sampled[k + 1..].iter().map(|b| apart(a, b)));
-    gaps.min_by(f64::total_cmp).filter(|gap| gap.is_finite())
+
+    /// How far that of the edges that comes nearest to being another one lies off it.
+    fn nearest_gap_mm(&self, open: &[EdgeId]) -> Option<f64> {
+        if open.len().saturating_mul(self.0.len()) > MAX_COMPARED {
+            return None;
+        }
+        let apart = |a: &[DVec3; 3], b: &[DVec3; 3]| {
+            let along = a[0].distance(b[0]).max(a[2].distance(b[2]));
+            let against = a[0].distance(b[2]).max(a[2].distance(b[0]));
+            along.min(against).max(a[1].distance(b[1]))
+        };
+        let gaps = open.iter().filter_map(|id| Some((id, self.0.get(id)?))).flat_map(|(id, a)| {
+            self.0.iter().filter(move |(other, _)| *other != id).map(move |(_, b)| apart(a, b))
+        });
+        gaps.min_by(f64::total_cmp).filter(|gap| gap.is_finite())
+    }
 }
