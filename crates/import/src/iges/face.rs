@@ -154,15 +154,15 @@ impl FaceReader<'_> {
         for (k, &boundary) in boundaries.iter().enumerate() {
             let pieces = self.boundary(boundary, &ground, &exact)?;
             on_model &= pieces.iter().all(|piece| !matches!(piece.curve, Curve::OnSurface { .. }));
-            let is_outer = has_outer && k == 0;
-            let mut bound = BoundDraft::new(pieces, boundary, is_outer)?;
-            // Round a pole there are two ways, and which one is meant only the direction tells.
-            if has_pole && let Some(area) = self.plane_area(boundary, &ground) {
-                bound = bound.about((area > 0.0) == is_outer).about(!ground.reversed);
-            }
-            bounds.push(bound);
+            bounds.push(BoundDraft::new(pieces, boundary, has_outer && k == 0)?);
         }
-        let exact = if has_outer && on_model { Arc::new(ground.simplified()) } else { exact };
+        if has_pole {
+            self.direct(&mut bounds, boundaries, &ground);
+        }
+        if has_outer && on_model {
+            let (surface, same_sense) = ground.simplified();
+            return Ok(FaceDraft { surface: Arc::new(surface), same_sense, bounds });
+        }
         Ok(FaceDraft { surface: exact, same_sense: !ground.reversed, bounds })
     }
 
@@ -195,6 +195,21 @@ impl FaceReader<'_> {
                 Ok(out)
             }
             _ => self.reader.curve(entry),
+        }
+    }
+
+    /// Runs the boundaries of a surface with poles as their curves in the parameter plane mean them: round a pole there
+    /// are two ways, and only the direction tells which one is meant. The one around the largest area is the outer one,
+    /// whatever the file calls it.
+    fn direct(&self, bounds: &mut [BoundDraft], boundaries: &[u32], ground: &Ground) {
+        let areas: Option<Vec<f64>> = boundaries.iter().map(|&entry| self.plane_area(entry, ground)).collect();
+        let Some(areas) = areas.filter(|areas| areas.len() == bounds.len()) else { return };
+        let outer = (0..areas.len()).max_by(|&a, &b| areas[a].abs().total_cmp(&areas[b].abs()));
+        for (k, bound) in bounds.iter_mut().enumerate() {
+            let runs_right = (areas[k] > 0.0) == (Some(k) == outer);
+            let turned = std::mem::take(&mut bound.pieces);
+            let turned = BoundDraft { pieces: turned, ..bound.clone() }.about(runs_right).about(!ground.reversed);
+            *bound = turned;
         }
     }
 

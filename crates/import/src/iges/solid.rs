@@ -127,7 +127,8 @@ impl ShapeBuilder<'_> {
             let bound = parameters.pointer()?;
             loops.push(self.edge_loop(bound, has_outer && k == 0, shared)?);
         }
-        Ok((FaceGeometry::Surface(Arc::new(ground.surface)), !ground.reversed, loops))
+        let (surface, same_sense) = ground.simplified();
+        Ok((FaceGeometry::Surface(Arc::new(surface)), same_sense, loops))
     }
 
     /// Type 508.

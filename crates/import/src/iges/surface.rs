@@ -1,7 +1,9 @@
 //! Surfaces (IGES 5.3 sections 4.12 to 4.17, 4.25, 4.29, 4.39 to 4.45).
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
-use trimloop_geom::{Curve, Frame, Interval, NurbsCurve, NurbsSurface, Surface};
+use trimloop_geom::{
+    CompositeCurve, CompositeSegment, Curve, Frame, Interval, NurbsCurve, NurbsSurface, Surface,
+};
 
 use super::curve::{Piece, bezier_knots, joined};
 use super::reader::{Fault, MAX_DEPTH, Outcome, Parameters, Reader};
@@ -26,9 +28,16 @@ impl Ground {
         Self { surface, parameters: DAffine3::IDENTITY, domain: None, reversed: false }
     }
 
-    /// The elementary surface that a revolution is, where it is one and nothing depends on its parameters.
-    pub fn simplified(&self) -> Surface {
-        elementary(&self.surface).unwrap_or_else(|| self.surface.clone())
+    /// The elementary surface that a revolution is, where it is one and nothing depends on its parameters, and whether
+    /// its normal is on the file's side.
+    pub fn simplified(&self) -> (Surface, bool) {
+        let same_sense = !self.reversed;
+        let Some(simple) = elementary(&self.surface) else { return (self.surface.clone(), same_sense) };
+        let [u, v] = self.domain.unwrap_or_else(|| self.surface.domain());
+        let uv = DVec2::new(u.at(0.31), v.at(0.47));
+        let normals = self.surface.normal(uv).zip(simple.normal(simple.project(self.surface.point(uv), None).uv));
+        let agree = normals.is_none_or(|(a, b)| a.dot(b) > 0.0);
+        (simple, same_sense == agree)
     }
 
     /// All of the entity, and the parameters that it ends at: as a spline, where it can be one; `None` where it never
@@ -122,11 +131,23 @@ impl Reader<'_> {
         let Piece { curve, range } = self.unscaled_curve(generatrix, parameters)?;
         let axis = (to - origin).try_normalize();
         let axis = axis.ok_or_else(|| parameters.fault("is revolved about an axis of no length"))?;
-        let surface = Surface::Revolution { profile: curve.into(), origin, axis };
-        let swap = DMat3::from_cols(DVec3::Y, DVec3::X, DVec3::Z);
+        let mut parameters = DAffine3::from_mat3(DMat3::from_cols(DVec3::Y, DVec3::X, DVec3::Z));
+        let (curve, range) = match curve {
+            // The rest of a conic would cover the surface again.
+            Curve::Circle { .. } | Curve::Ellipse { .. } | Curve::Parabola { .. } | Curve::Hyperbola { .. } => {
+                let length = range.length();
+                parameters = DAffine3::from_scale(DVec3::new(1.0, 1.0 / length, 1.0))
+                    * DAffine3::from_translation(DVec3::Y * -range.start)
+                    * parameters;
+                let segment = CompositeSegment { curve, range, reversed: false };
+                let whole = Curve::Composite(CompositeCurve { segments: vec![segment] });
+                (whole, Interval::new(0.0, 1.0))
+            }
+            curve => (curve, range),
+        };
         Ok(Ground {
-            surface,
-            parameters: DAffine3::from_mat3(swap),
+            surface: Surface::Revolution { profile: curve.into(), origin, axis },
+            parameters,
             domain: Some([Interval::new(start.min(end), start.max(end)), range]),
             reversed: true,
         })
@@ -229,9 +250,12 @@ fn domain_of(surface: &Surface) -> Option<[Interval; 2]> {
     }
 }
 
-/// The cylinder, cone or plane that a line makes when it is revolved.
+/// The cylinder, cone or plane that a line makes when it is revolved, the sphere or torus that an arc makes.
 pub(crate) fn elementary(surface: &Surface) -> Option<Surface> {
     let Surface::Revolution { profile, origin, axis } = surface else { return None };
+    if let Some((frame, radius)) = circular(profile) {
+        return round(frame, radius, *origin, *axis);
+    }
     let (start, direction) = straight(profile)?;
     let out = |p: DVec3| p - *axis * p.dot(*axis);
     let along = direction.try_normalize()?;
@@ -254,6 +278,38 @@ pub(crate) fn elementary(surface: &Surface) -> Option<Surface> {
     let widens = across.dot(from).signum() * height.signum();
     let half_angle_rad = across.length().atan2(height.abs());
     Some(Surface::Cone { frame: frame(*axis * widens, start), radius: from.length(), half_angle_rad })
+}
+
+/// The circle of a curve that is an arc.
+fn circular(curve: &Curve) -> Option<(Frame, f64)> {
+    match curve {
+        Curve::Circle { frame, radius } => Some((*frame, *radius)),
+        Curve::Composite(composite) => match &composite.segments[..] {
+            [segment] => circular(&segment.curve),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// What a circle makes when it is revolved about an axis in its plane, if it does not cross itself.
+fn round(circle: Frame, radius: f64, origin: DVec3, axis: DVec3) -> Option<Surface> {
+    let to_center = circle.origin - origin;
+    let size = radius + to_center.length();
+    let flat = circle.z.dot(axis).abs() <= 1e-9 && to_center.dot(circle.z).abs() <= 1e-9 * size;
+    let foot = origin + axis * to_center.dot(axis);
+    let out = circle.origin - foot;
+    if !flat {
+        None
+    } else if out.length() <= 1e-9 * size {
+        let frame = Frame::new(circle.origin, axis, circle.z.cross(axis));
+        Some(Surface::Sphere { frame, radius })
+    } else if out.length() > radius * (1.0 + 1e-9) {
+        let frame = Frame::new(foot, axis, out);
+        Some(Surface::Torus { frame, major: out.length(), minor: radius, v_range: None })
+    } else {
+        None
+    }
 }
 
 /// A point and the direction of a curve that is straight.
