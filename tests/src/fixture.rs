@@ -127,7 +127,8 @@ fn collect(folder: &Path, found: &mut Vec<Fixture>) {
 /// is no CAD file.
 fn name_of(path: &Path) -> Option<String> {
     let name = path.strip_prefix(folder()).ok()?.to_str()?.replace('\\', "/");
-    let plain = [".step", ".stp", ".p21", ".igs", ".iges"].iter().find_map(|extension| name.strip_suffix(extension));
+    let plain =
+        [".step", ".stp", ".p21", ".igs", ".iges"].iter().find_map(|extension| name.strip_suffix(extension));
     let packed = [".stpz", ".gz", ".zip"].iter().any(|extension| name.ends_with(extension));
     plain.map(str::to_string).or_else(|| packed.then(|| name.clone()))
 }

@@ -12,6 +12,6 @@ pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use entity::EntityRef;
 pub use model::{Model, Node, Source};
 pub use part::{
-    Body, BodyKind, Coedge, Edge, EdgeId, Face, FaceGeometry, FaceId, Facets, FreeCurve, FreePoint, Loop, Part, Shell,
-    ShellFace, Vertex, VertexId,
+    Body, BodyKind, Coedge, Edge, EdgeId, Face, FaceGeometry, FaceId, Facets, FreeCurve, FreePoint, Loop,
+    Part, Shell, ShellFace, Vertex, VertexId,
 };

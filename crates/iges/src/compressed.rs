@@ -228,7 +228,8 @@ fn push_entry(
         _ => fields[k].clone(),
     };
     for half in [1..10, 11..20] {
-        let row: Vec<u8> = half.flat_map(|k| right_aligned(&of(k), if k == 9 { b'0' } else { b' ' })).collect();
+        let row: Vec<u8> =
+            half.flat_map(|k| right_aligned(&of(k), if k == 9 { b'0' } else { b' ' })).collect();
         out.push(Section::Directory, &row, line);
     }
 }

@@ -27,13 +27,15 @@ impl IgesFile {
     /// Reads the bytes of a file. Damage costs no more than what is damaged: see [`Self::errors`].
     pub fn parse(bytes: &[u8]) -> Result<Self, ReadError> {
         let mut sheet = lines(bytes)?;
-        let mut errors: Vec<SyntaxError> = sheet.strays.iter().take(MAX_STRAYS).map(|&line| stray(line)).collect();
+        let mut errors: Vec<SyntaxError> =
+            sheet.strays.iter().take(MAX_STRAYS).map(|&line| stray(line)).collect();
         let is_compressed = sheet.count(Section::Flag) > 0;
         if is_compressed {
             errors.clear();
             sheet = compressed::expanded(bytes, &mut errors)?;
         }
-        let joined = |section| sheet.of(section).flat_map(|line| line.text.iter().copied()).collect::<Vec<u8>>();
+        let joined =
+            |section| sheet.of(section).flat_map(|line| line.text.iter().copied()).collect::<Vec<u8>>();
         let start: Vec<String> =
             sheet.of(Section::Start).map(|line| decode(line.text).trim_end().to_owned()).collect();
         let directory = directory(&sheet.of(Section::Directory).collect::<Vec<_>>(), &mut errors);

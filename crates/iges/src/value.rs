@@ -185,7 +185,11 @@ mod tests {
     fn a_string_whose_count_is_wrong_goes_to_its_delimiter() {
         let found = values("30HC:\\part.igs,                        26Hx,1;");
         assert_eq!(found[0], Value::Text(b"C:\\part.igs"), "too long a count");
-        assert_eq!(values("3Hhello,1;")[..2], [Value::Text(b"hello"), Value::Integer(1)], "too short a count");
+        assert_eq!(
+            values("3Hhello,1;")[..2],
+            [Value::Text(b"hello"), Value::Integer(1)],
+            "too short a count"
+        );
         assert_eq!(values("3Ha,b ,1;"), [Value::Text(b"a,b"), Value::Integer(1)], "a right one");
     }
 

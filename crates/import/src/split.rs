@@ -137,8 +137,7 @@ fn segment_distance(point: DVec3, a: DVec3, b: DVec3) -> f64 {
 /// The pieces of an edge between points, in the direction of its curve; the first keeps the edge's number.
 fn cut(part: &mut Part, id: EdgeId, points: &[(f64, DVec3)]) -> Vec<EdgeId> {
     let whole = part.edges[id as usize].clone();
-    let (first, last) =
-        if whole.same_sense { (whole.start, whole.end) } else { (whole.end, whole.start) };
+    let (first, last) = if whole.same_sense { (whole.start, whole.end) } else { (whole.end, whole.start) };
     let mut out = Vec::with_capacity(points.len() + 1);
     let mut from = (whole.range.start, first);
     for k in 0..=points.len() {

@@ -186,9 +186,8 @@ fn groups_and_names_are_nodes_and_a_body_stays_whole() {
     let list = |faces: &[usize]| faces.iter().map(usize::to_string).collect::<Vec<_>>().join(",");
     let block = deck.add(150, "00000000", 0, "1.,1.,1.,9.,0.,0.,1.,0.,0.,0.,0.,1.");
     // The cube's faces stand in two groups of one group.
-    let parts = [&faces[..2], &faces[2..]].map(|part| {
-        deck.add_form(402, 7, "00000000", 0, &format!("{},{}", part.len(), list(part)))
-    });
+    let parts = [&faces[..2], &faces[2..]]
+        .map(|part| deck.add_form(402, 7, "00000000", 0, &format!("{},{}", part.len(), list(part))));
     let label = name(&mut deck, "housing");
     deck.add_form(402, 7, "00000000", 0, &format!("3,{},{block},0,1,{label}", list(&parts)));
     let model = model(&deck);
@@ -283,7 +282,8 @@ fn a_boolean_tree_is_lost_and_not_in_silence() {
     let tree = deck.add(180, "00000000", 0, &format!("3,-{block},-{ball},1"));
     let model = model(&deck);
     let lost: Vec<_> = model.parts.iter().flat_map(|part| &part.faces).collect();
-    let lost: Vec<_> = lost.iter().filter(|face| matches!(face.geometry, FaceGeometry::Unreadable(_))).collect();
+    let lost: Vec<_> =
+        lost.iter().filter(|face| matches!(face.geometry, FaceGeometry::Unreadable(_))).collect();
     assert_eq!(lost.len(), 1, "its operands are not shown by themselves");
     assert_eq!(lost[0].entity, EntityRef::Iges(tree as u32));
 }

@@ -49,11 +49,13 @@ impl Orientation {
         };
         let boxes: Vec<Aabb> = made.iter().map(|faces| Aabb::from_points(corners(faces))).collect();
         for (k, faces) in made.iter().enumerate() {
-            let holds = |other: &Aabb| {
-                other.min.cmplt(boxes[k].min).all() && other.max.cmpgt(boxes[k].max).all()
+            let holds =
+                |other: &Aabb| other.min.cmplt(boxes[k].min).all() && other.max.cmpgt(boxes[k].max).all();
+            let around: Vec<usize> =
+                (0..made.len()).filter(|&other| other != k && holds(&boxes[other])).collect();
+            let Some(point) = corners(faces).first().copied().filter(|_| !around.is_empty()) else {
+                continue;
             };
-            let around: Vec<usize> = (0..made.len()).filter(|&other| other != k && holds(&boxes[other])).collect();
-            let Some(point) = corners(faces).first().copied().filter(|_| !around.is_empty()) else { continue };
             let within = around.iter().filter(|&&other| self.contains(&made[other], point, drafts, shared));
             if within.count() % 2 == 1 {
                 faces.iter().for_each(|&face| self.turned[face] ^= true);
@@ -65,8 +67,7 @@ impl Orientation {
     /// and Strackee 1983).
     fn contains(&self, faces: &[usize], point: DVec3, drafts: &[FaceDraft], shared: &[DVec3]) -> bool {
         let angle = |draft: &FaceDraft, t: &[u32; 3]| {
-            let [a, b, c] =
-                t.map(|i| draft.position(draft.vertices[i as usize].point, shared) - point);
+            let [a, b, c] = t.map(|i| draft.position(draft.vertices[i as usize].point, shared) - point);
             let [la, lb, lc] = [a, b, c].map(DVec3::length);
             let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
             2.0 * a.dot(b.cross(c)).atan2(below)

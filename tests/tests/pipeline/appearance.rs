@@ -14,9 +14,10 @@ fn colours_cover_the_area_they_should() {
         let mut lines = Vec::new();
         for color in reference.colours.keys() {
             // White and none look the same on a sheet.
-            let meant = reference.colours.iter().filter(|(other, _)| {
-                *other == color || is_white_or_none(other) && is_white_or_none(color)
-            });
+            let meant = reference
+                .colours
+                .iter()
+                .filter(|(other, _)| *other == color || is_white_or_none(other) && is_white_or_none(color));
             let area: f64 = meant.map(|(_, area)| area).sum();
             let alike = measure.colors.iter().filter(|(found, _)| same_color(found, color));
             let found: f64 = alike.map(|(_, area)| area).sum();

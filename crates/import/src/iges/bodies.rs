@@ -118,7 +118,9 @@ fn open_edges(samples: &SampledEdges, open: &[EdgeId], faces: usize, entity: Ent
         open.len()
     );
     match samples.nearest_gap_mm(open) {
-        Some(gap) => message += &format!("; the one that is nearest to another lies up to {gap:.3} mm off it."),
+        Some(gap) => {
+            message += &format!("; the one that is nearest to another lies up to {gap:.3} mm off it.")
+        }
         None => message.push('.'),
     }
     Diagnostic::new(Severity::Warning, "open-edges", entity, message)

@@ -202,13 +202,15 @@ impl FaceReader<'_> {
     /// are two ways, and only the direction tells which one is meant. The one around the largest area is the outer one,
     /// whatever the file calls it.
     fn direct(&self, bounds: &mut [BoundDraft], boundaries: &[u32], ground: &Ground) {
-        let areas: Option<Vec<f64>> = boundaries.iter().map(|&entry| self.plane_area(entry, ground)).collect();
+        let areas: Option<Vec<f64>> =
+            boundaries.iter().map(|&entry| self.plane_area(entry, ground)).collect();
         let Some(areas) = areas.filter(|areas| areas.len() == bounds.len()) else { return };
         let outer = (0..areas.len()).max_by(|&a, &b| areas[a].abs().total_cmp(&areas[b].abs()));
         for (k, bound) in bounds.iter_mut().enumerate() {
             let runs_right = (areas[k] > 0.0) == (Some(k) == outer);
             let turned = std::mem::take(&mut bound.pieces);
-            let turned = BoundDraft { pieces: turned, ..bound.clone() }.about(runs_right).about(!ground.reversed);
+            let turned =
+                BoundDraft { pieces: turned, ..bound.clone() }.about(runs_right).about(!ground.reversed);
             *bound = turned;
         }
     }
@@ -347,11 +349,15 @@ fn are_alike(a: &[Piece], b: &[Piece], reach: f64) -> bool {
     let near = |a: &Piece, b: &Piece| {
         let apart = |turned: bool| {
             let shares = [0.0, 0.5, 1.0].into_iter();
-            shares.map(move |s| at(a, s).distance(at(b, if turned { 1.0 - s } else { s }))).fold(0.0, f64::max)
+            shares
+                .map(move |s| at(a, s).distance(at(b, if turned { 1.0 - s } else { s })))
+                .fold(0.0, f64::max)
         };
         let middle = || b.curve.project(at(a, 0.5), None).distance;
         let ends = |turned: bool| {
-            at(a, 0.0).distance(at(b, f64::from(u8::from(turned)))).max(at(a, 1.0).distance(at(b, f64::from(u8::from(!turned)))))
+            at(a, 0.0)
+                .distance(at(b, f64::from(u8::from(turned))))
+                .max(at(a, 1.0).distance(at(b, f64::from(u8::from(!turned)))))
         };
         apart(false).min(apart(true)) <= reach || (ends(false).min(ends(true)) <= reach && middle() <= reach)
     };
@@ -369,7 +375,11 @@ fn is_point(piece: &Piece) -> bool {
 pub(crate) fn chained(pieces: Vec<Piece>) -> Vec<Piece> {
     let pieces: Vec<Piece> = pieces.into_iter().filter(|piece| !is_point(piece)).collect();
     let turned = directions(&pieces);
-    pieces.into_iter().zip(turned).map(|(piece, turned)| if turned { piece.reversed() } else { piece }).collect()
+    pieces
+        .into_iter()
+        .zip(turned)
+        .map(|(piece, turned)| if turned { piece.reversed() } else { piece })
+        .collect()
 }
 
 /// Per piece whether the loop runs it backwards.

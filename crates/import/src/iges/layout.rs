@@ -146,7 +146,8 @@ impl Places<'_> {
 
     /// Type 180: operands are pointers with their sign turned, operations are positive.
     fn operands(&self, count: usize) -> Vec<usize> {
-        let is_operand = |place: &usize| self.values.get(*place).and_then(Value::integer).is_some_and(|v| v < 0);
+        let is_operand =
+            |place: &usize| self.values.get(*place).and_then(Value::integer).is_some_and(|v| v < 0);
         (2..2 + count).filter(is_operand).collect()
     }
 

@@ -74,7 +74,8 @@ impl Uses {
         let mut out = Self { parts: FxHashSet::default(), members: FxHashSet::default() };
         for entity in reader.file.entities() {
             let kind = entity.directory.entity_type;
-            if kind == 402 && !is_group(entity.directory) || matches!(kind, 114 | 128 | 150..=160 | 168 | 502) {
+            if kind == 402 && !is_group(entity.directory) || matches!(kind, 114 | 128 | 150..=160 | 168 | 502)
+            {
                 continue;
             }
             let parts = Layout::of(&entity).parts;
@@ -298,7 +299,10 @@ impl<'r, 'f> Builder<'r, 'f> {
                 (outer.geometry, outer.placements) = (inner.geometry, inner.placements);
                 outer.color = inner.color.or(outer.color);
                 children[parent] = children[k];
-                groups.iter_mut().filter(|group| group.parent == Some(k)).for_each(|g| g.parent = Some(parent));
+                groups
+                    .iter_mut()
+                    .filter(|group| group.parent == Some(k))
+                    .for_each(|g| g.parent = Some(parent));
                 groups[k].parent = Some(parent);
                 children[k] = 0;
             }

@@ -11,6 +11,7 @@ use trimloop_brep::{
 use trimloop_geom::{Curve, Frame, Interval, Surface};
 
 use super::curve::Piece;
+use super::face::chained;
 use super::look::{levels_of, name_of};
 use super::reader::{Fault, Outcome, Parameters, Reader};
 use super::shape::ShapeBuilder;
@@ -56,7 +57,8 @@ impl ShapeBuilder<'_> {
 impl ShapeBuilder<'_> {
     /// Counts a Boolean tree (type 180) as lost: solids are not combined here.
     pub fn add_boolean(&mut self, entry: u32, color: Option<Rgba>) {
-        let fault = Fault::new(entry, "is a Boolean tree; solids are not combined, and its operands are left out");
+        let fault =
+            Fault::new(entry, "is a Boolean tree; solids are not combined, and its operands are left out");
         self.face(entry, color, |_| Err(fault));
     }
 }
@@ -209,7 +211,7 @@ impl Maker<'_, '_> {
     fn profile(&self, parameters: &Parameters<'_>, entry: u32, map: DAffine3) -> Outcome<Vec<Piece>> {
         // The profile is read in the solid's own units and then goes where the solid goes.
         let own = Reader { unit_mm: 1.0, ..self.builder.reader };
-        let pieces = super::face::chained(own.curve(entry)?);
+        let pieces: Vec<Piece> = chained(own.curve(entry)?).into_iter().flat_map(straightened).collect();
         if pieces.is_empty() {
             return Err(parameters.fault("has a profile of no length"));
         }
@@ -308,11 +310,16 @@ impl Maker<'_, '_> {
             points.push(pieces[n - 1].ends()[1]);
         }
         let away = DAffine3::from_axis_angle(turn.axis, turn.angle);
-        let away =
-            DAffine3::from_translation(turn.origin) * away * DAffine3::from_translation(-turn.origin);
+        let away = DAffine3::from_translation(turn.origin) * away * DAffine3::from_translation(-turn.origin);
         let near: Vec<VertexId> = points.iter().map(|&p| self.vertex(p)).collect();
         let far: Vec<VertexId> = (0..points.len())
-            .map(|k| if full || turn.on_axis(points[k]) { near[k] } else { self.vertex(away.transform_point3(points[k])) })
+            .map(|k| {
+                if full || turn.on_axis(points[k]) {
+                    near[k]
+                } else {
+                    self.vertex(away.transform_point3(points[k]))
+                }
+            })
             .collect();
         let rims: Vec<Option<u32>> = (0..points.len())
             .map(|k| turn.circle(points[k]).map(|piece| self.edge(piece, near[k], far[k])))
@@ -400,6 +407,16 @@ fn segment(start: DVec3, end: DVec3) -> Piece {
 fn backwards(piece: &Piece) -> Piece {
     let [start, end] = piece.ends();
     if matches!(piece.curve, Curve::Line { .. }) { segment(end, start) } else { piece.clone() }
+}
+
+/// The lines of a polyline, one by one; other pieces as they are.
+fn straightened(piece: Piece) -> Vec<Piece> {
+    match &piece.curve {
+        Curve::Polyline(polyline) if piece.range == polyline.domain() => {
+            polyline.points.windows(2).map(|pair| segment(pair[0], pair[1])).collect()
+        }
+        _ => vec![piece],
+    }
 }
 
 fn halves(piece: Piece) -> Vec<Piece> {

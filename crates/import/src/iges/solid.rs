@@ -1,16 +1,18 @@
 //! B-rep solids: shells, faces, loops and lists of edges and vertices (IGES 5.3 sections 4.47 and 4.137 to 4.141).
 
+use std::collections::hash_map::Entry;
 use std::sync::Arc;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use trimloop_brep::{
-    Body, BodyKind, Coedge, Edge, EntityRef, FaceGeometry, FaceId, Loop, Rgba, Severity, Shell, ShellFace, VertexId,
+    Body, BodyKind, Coedge, Edge, EntityRef, FaceGeometry, FaceId, Loop, Rgba, Severity, Shell, ShellFace,
+    VertexId,
 };
 
 use super::curve::{Piece, joined};
 use super::look::{color_of, levels_of, name_of};
-use super::reader::{Fault, Outcome, Parameters, Reader};
+use super::reader::{Fault, Outcome, Reader};
 use super::shape::ShapeBuilder;
 
 impl ShapeBuilder<'_> {
@@ -212,37 +214,43 @@ pub(crate) struct Lists {
 
 impl Lists {
     fn edge(&mut self, reader: &Reader<'_>, list: u32, index: usize) -> Outcome<[u32; 5]> {
-        if !self.edges.contains_key(&list) {
-            let mut parameters = reader.parameters(list)?;
-            parameters.expect(&[504], "edge list")?;
-            let count = parameters.count(5)?;
-            let row = |parameters: &mut Parameters<'_>| -> Outcome<[u32; 5]> {
-                let mut row = [0; 5];
-                for value in &mut row {
-                    *value = parameters.pointer()?;
-                }
-                Ok(row)
-            };
-            let rows = (0..count).map(|_| row(&mut parameters)).collect::<Outcome<Vec<_>>>()?;
-            self.edges.insert(list, rows);
-        }
-        let edges = &self.edges[&list];
+        let edges = match self.edges.entry(list) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(empty) => empty.insert(read_edges(reader, list)?),
+        };
         let missing = || Fault::new(list, format!("has {} edges, no number {}", edges.len(), index + 1));
         edges.get(index).copied().ok_or_else(missing)
     }
 
     /// A vertex by its number, from 1.
     fn vertex(&mut self, reader: &Reader<'_>, list: u32, number: u32) -> Outcome<DVec3> {
-        if !self.vertices.contains_key(&list) {
-            let mut parameters = reader.parameters(list)?;
-            parameters.expect(&[502], "vertex list")?;
-            let count = parameters.count(3)?;
-            let map = reader.placement(parameters.directory)?;
-            let points = parameters.points(count)?.into_iter().map(|point| map.transform_point3(point));
-            self.vertices.insert(list, points.collect());
-        }
-        let vertices = &self.vertices[&list];
+        let vertices = match self.vertices.entry(list) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(empty) => empty.insert(read_vertices(reader, list)?),
+        };
         let missing = || Fault::new(list, format!("has {} vertices, no number {number}", vertices.len()));
         (number as usize).checked_sub(1).and_then(|index| vertices.get(index)).copied().ok_or_else(missing)
     }
+}
+
+/// Type 504.
+fn read_edges(reader: &Reader<'_>, list: u32) -> Outcome<Vec<[u32; 5]>> {
+    let mut parameters = reader.parameters(list)?;
+    parameters.expect(&[504], "edge list")?;
+    let count = parameters.count(5)?;
+    let mut edges = vec![[0; 5]; count];
+    for value in edges.iter_mut().flatten() {
+        *value = parameters.pointer()?;
+    }
+    Ok(edges)
+}
+
+/// Type 502, placed.
+fn read_vertices(reader: &Reader<'_>, list: u32) -> Outcome<Vec<DVec3>> {
+    let mut parameters = reader.parameters(list)?;
+    parameters.expect(&[502], "vertex list")?;
+    let count = parameters.count(3)?;
+    let map = reader.placement(parameters.directory)?;
+    let points = parameters.points(count)?;
+    Ok(points.into_iter().map(|point| map.transform_point3(point)).collect())
 }

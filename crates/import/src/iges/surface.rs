@@ -1,5 +1,7 @@
 //! Surfaces (IGES 5.3 sections 4.12 to 4.17, 4.25, 4.29, 4.39 to 4.45).
 
+use std::f64::consts::TAU;
+
 use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
 use trimloop_geom::{
     CompositeCurve, CompositeSegment, Curve, Frame, Interval, NurbsCurve, NurbsSurface, Surface,
@@ -35,7 +37,8 @@ impl Ground {
         let Some(simple) = elementary(&self.surface) else { return (self.surface.clone(), same_sense) };
         let [u, v] = self.domain.unwrap_or_else(|| self.surface.domain());
         let uv = DVec2::new(u.at(0.31), v.at(0.47));
-        let normals = self.surface.normal(uv).zip(simple.normal(simple.project(self.surface.point(uv), None).uv));
+        let normals =
+            self.surface.normal(uv).zip(simple.normal(simple.project(self.surface.point(uv), None).uv));
         let agree = normals.is_none_or(|(a, b)| a.dot(b) > 0.0);
         (simple, same_sense == agree)
     }
@@ -99,12 +102,16 @@ impl Reader<'_> {
     fn ruled(&self, parameters: &mut Parameters<'_>) -> Outcome<Ground> {
         let (first, second) = (parameters.pointer()?, parameters.pointer()?);
         let turned = parameters.integer()? == 1;
-        let spline = |entry: u32, parameters: &Parameters<'_>| -> Outcome<NurbsCurve> {
-            let Piece { curve, range } = self.unscaled_curve(entry, parameters)?;
-            let spline = curve.to_nurbs(range).and_then(|it| it.reparametrized(Interval::new(0.0, 1.0)).ok());
+        let pieces = [self.unscaled_curve(first, parameters)?, self.unscaled_curve(second, parameters)?];
+        // Arcs that turn alike are ruled alike, whatever their parameters.
+        let alike = turn_alike(&pieces[0], &pieces[1]);
+        let spline = |piece: &Piece| -> Outcome<NurbsCurve> {
+            let followed = if alike { None } else { followed(piece) };
+            let spline = followed.or_else(|| piece.curve.to_nurbs(piece.range));
+            let spline = spline.and_then(|it| it.reparametrized(Interval::new(0.0, 1.0)).ok());
             spline.ok_or_else(|| parameters.fault("is ruled along a curve that is no spline"))
         };
-        let (mut a, mut b) = (spline(first, parameters)?, spline(second, parameters)?);
+        let (mut a, mut b) = (spline(&pieces[0])?, spline(&pieces[1])?);
         if turned {
             b = b.reversed();
         }
@@ -134,7 +141,10 @@ impl Reader<'_> {
         let mut parameters = DAffine3::from_mat3(DMat3::from_cols(DVec3::Y, DVec3::X, DVec3::Z));
         let (curve, range) = match curve {
             // The rest of a conic would cover the surface again.
-            Curve::Circle { .. } | Curve::Ellipse { .. } | Curve::Parabola { .. } | Curve::Hyperbola { .. } => {
+            Curve::Circle { .. }
+            | Curve::Ellipse { .. }
+            | Curve::Parabola { .. }
+            | Curve::Hyperbola { .. } => {
                 let length = range.length();
                 parameters = DAffine3::from_scale(DVec3::new(1.0, 1.0 / length, 1.0))
                     * DAffine3::from_translation(DVec3::Y * -range.start)
@@ -328,6 +338,40 @@ fn straight(curve: &Curve) -> Option<(DVec3, DVec3)> {
         }
         _ => None,
     }
+}
+
+/// Whether two pieces are arcs over the same angle.
+fn turn_alike(a: &Piece, b: &Piece) -> bool {
+    let is_arc = |piece: &Piece| matches!(piece.curve, Curve::Circle { .. } | Curve::Ellipse { .. });
+    is_arc(a) && is_arc(b) && (a.range.length() - b.range.length()).abs() <= 1e-12
+}
+
+/// Spans in a turn of an arc: the spline is then within 2e-9 of the radius.
+const SPANS_PER_TURN: f64 = 200.0;
+
+/// A spline that follows an arc with the arc's own parameter, which no rational one does: cubics that have its points and
+/// tangents (Hermite). Nothing for curves that are splines in their own parameter.
+fn followed(piece: &Piece) -> Option<NurbsCurve> {
+    let spans = match piece.curve {
+        Curve::Circle { .. } | Curve::Ellipse { .. } => piece.range.length() / TAU * SPANS_PER_TURN,
+        Curve::Hyperbola { .. } => piece.range.length() * SPANS_PER_TURN / 4.0,
+        _ => return None,
+    };
+    let spans = spans.ceil().clamp(1.0, 10_000.0) as usize;
+    let breaks: Vec<f64> = (0..=spans).map(|k| piece.range.at(k as f64 / spans as f64)).collect();
+    let third = piece.range.length() / spans as f64 / 3.0;
+    let mut points = Vec::with_capacity(3 * spans + 1);
+    for (k, &t) in breaks.iter().enumerate() {
+        let [point, tangent, _] = piece.curve.derivatives(t);
+        if k > 0 {
+            points.push(point - tangent * third);
+        }
+        points.push(point);
+        if k < spans {
+            points.push(point + tangent * third);
+        }
+    }
+    NurbsCurve::new(3, points, Vec::new(), bezier_knots(&breaks)).ok()
 }
 
 /// The knots of `other` that `knots` lacks, as often as it lacks them.

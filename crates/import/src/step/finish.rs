@@ -12,13 +12,13 @@ use super::chain::mend_loops;
 use super::edge_range::edge_range;
 use super::fault::{Fault, Outcome};
 use super::find_vertices::find_vertices;
-use crate::parallel::map;
 use super::pcurve_hints::hints;
 use super::reader::{Budget, Reader};
 use super::seeds::{EdgeCurve, EdgeSeed, FaceSeed, FaceSurface, Seeds, VertexSeed};
 use super::straighten::straighten;
 use super::table::Table;
 use super::units::Units;
+use crate::parallel::map;
 
 /// How far a vertex may lie off its edge's curve without being reported, millimetres, where the file states no
 /// larger uncertainty.

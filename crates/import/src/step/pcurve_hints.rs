@@ -6,10 +6,10 @@ use trimloop_geom::{Curve, Surface};
 
 use super::fault::Outcome;
 use super::keyword::Kind;
-use crate::parallel::map;
 use super::reader::{Budget, Reader};
 use super::seeds::{EdgeCurve, FaceSeed, FaceSurface, Seeds};
 use super::table::Table;
+use crate::parallel::map;
 
 /// For each face the pcurves of its coedges, loop after loop; empty for a face that has none.
 pub(crate) type Hints = Vec<Vec<Option<Arc<Curve>>>>;
