@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::compressed;
 use crate::directory::DirectoryEntry;
+use crate::global::LAST_OF_UNITS;
 use crate::lines::{Line, Sheet, lines, look_like_iges};
 use crate::value::decode;
 use crate::{Entity, Global, ReadError, Section, SyntaxError};
@@ -43,6 +44,14 @@ impl IgesFile {
         let (text, ranges) = assemble(&directory, &parameters, &mut errors);
         check_terminate(&sheet, &mut errors);
         let global = Global::parse(&joined(Section::Global));
+        if global.parameter_count < LAST_OF_UNITS {
+            let message = format!(
+                "it ends after {} parameters, before it says what the units are; inches are assumed",
+                global.parameter_count
+            );
+            let line = sheet.of(Section::Global).last().map_or(0, |line| line.number);
+            errors.push(SyntaxError { line, section: Section::Global, entry: None, message });
+        }
         Ok(Self { start: start.join("\n"), global, directory, ranges, text, errors })
     }
 

@@ -36,7 +36,12 @@ pub struct Global {
     pub version: i64,
     /// When the file was written, as it says.
     pub date: String,
+    /// How many parameters the section has.
+    pub parameter_count: usize,
 }
+
+/// The place of the last parameter that says how large things are: the name of the unit.
+pub(crate) const LAST_OF_UNITS: usize = 15;
 
 impl Global {
     /// The section whose lines' texts, one after the other, are `text`.
@@ -52,6 +57,7 @@ impl Global {
             }
             rest = then;
         }
+        let parameter_count = values.len();
         values.resize(26, Value::Default);
         let text = |k: usize| values[k - 1].text().map(|text| text.trim().to_owned()).unwrap_or_default();
         let real = |k: usize| values[k - 1].real().filter(|value| value.is_finite());
@@ -72,6 +78,7 @@ impl Global {
             author: text(21),
             organization: text(22),
             version: values[22].integer().unwrap_or(3),
+            parameter_count,
         }
     }
 

@@ -62,7 +62,7 @@ pub fn mesh_part(part: &Part, options: &MeshOptions, monitor: &dyn Monitor) -> R
     mesh.diagnostics.extend(off);
     mesh.linear_deflection_mm = deflection;
     mesh.curves =
-        part.curves.iter().map(|c| CurveLine { points: line(c, tolerance), color: c.color }).collect();
+        part.curves.par_iter().map(|c| CurveLine { points: line(c, tolerance), color: c.color }).collect();
     mesh.curves.retain(|c| c.points.len() > 1);
     mesh.curves.extend(part.points.iter().flat_map(|point| cross(point, POINT_SHARE * size_mm(part))));
     Ok(mesh)

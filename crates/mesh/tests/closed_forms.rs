@@ -284,3 +284,39 @@ fn a_face_that_looks_the_wrong_way_is_turned_and_reported() {
     assert_closed(&mesh, 2.0 * PI * 25.0 + TAU * 5.0 * 20.0, PI * 25.0 * 20.0);
     assert!(mesh.diagnostics.iter().any(|d| d.code == "face-orientation"));
 }
+
+#[test]
+fn a_body_put_together_from_loose_faces_within_another_is_its_cavity() {
+    let mut part = Part::default();
+    let mut add = |radius: f64, center: DVec3, entity: EntityRef| {
+        let frame = Frame { origin: center, ..Frame::WORLD };
+        let face = part.faces.len() as u32;
+        part.faces.push(Face {
+            entity: EntityRef::Iges(2 * face + 1),
+            name: String::new(),
+            geometry: FaceGeometry::Surface(Arc::new(Surface::Sphere { frame, radius })),
+            same_sense: true,
+            loops: Vec::new(),
+            color: None,
+            hidden: false,
+        });
+        let faces = vec![ShellFace { face, reversed: false }];
+        let shell = Shell { entity: EntityRef::None, closed: true, void: false, faces };
+        let (name, layers) = (String::new(), Vec::new());
+        part.bodies.push(Body { name, entity, kind: BodyKind::Solid, shells: vec![shell], layers });
+    };
+    add(10.0, DVec3::ZERO, EntityRef::None);
+    add(6.0, DVec3::X, EntityRef::None);
+    add(2.0, DVec3::X, EntityRef::None);
+    add(1.0, DVec3::X * 30.0, EntityRef::None);
+    // A solid that the file itself has is one, wherever it lies.
+    add(1.0, DVec3::Z * 8.0, EntityRef::Iges(99));
+    let options =
+        MeshOptions { linear_deflection: LinearDeflection::Absolute(0.01), ..MeshOptions::default() };
+    let mesh = mesh_part(&part, &options, &Silent).expect("not cancelled");
+    let signs: Vec<f64> = mesh.shells.iter().map(|shell| shell.volume_mm3.signum()).collect();
+    assert_eq!(signs, [1.0, -1.0, 1.0, 1.0, 1.0]);
+    let total: f64 = mesh.shells.iter().map(|shell| shell.volume_mm3).sum();
+    let exact = 4.0 / 3.0 * PI * (1000.0 - 216.0 + 8.0 + 1.0 + 1.0);
+    assert!((total / exact - 1.0).abs() < 0.01, "{total}, not {exact}");
+}

@@ -337,9 +337,11 @@ fn natural_bound(surface: &Arc<Surface>, domain: [Interval; 2], entry: u32) -> O
 
 /// Whether a curve lies within `reach` of a surface.
 fn lies_on(piece: &Piece, surface: &Surface, reach: f64) -> bool {
+    let mut hint = None;
     [0.0, 0.31, 0.72, 1.0].into_iter().all(|share| {
-        let point = piece.curve.point(piece.range.at(share));
-        surface.project(point, None).distance <= reach
+        let foot = surface.project(piece.curve.point(piece.range.at(share)), hint);
+        hint = Some(foot.uv);
+        foot.distance <= reach
     })
 }
 

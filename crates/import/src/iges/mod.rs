@@ -17,7 +17,7 @@ mod surface;
 use std::collections::BTreeMap;
 
 use trimloop_brep::{Diagnostic, Diagnostics, EntityRef, Model, Severity, Source};
-use trimloop_iges::IgesFile;
+use trimloop_iges::{IgesFile, Section};
 
 use self::outline::{Outline, Uses};
 use self::reader::Reader;
@@ -46,8 +46,9 @@ pub(crate) fn import(file: &IgesFile) -> Result<Model, ImportError> {
 }
 
 fn syntax_diagnostic(error: &trimloop_iges::SyntaxError) -> Diagnostic {
-    // A wrong count or a stray line loses nothing; an entry without its data does.
-    let severity = if error.entry.is_some() { Severity::Error } else { Severity::Warning };
+    // A wrong count or a stray line loses nothing; an entry without its data does, and without units all may be wrong.
+    let loses = error.entry.is_some() || error.section == Section::Global;
+    let severity = if loses { Severity::Error } else { Severity::Warning };
     let entity = error.entry.map_or(EntityRef::None, EntityRef::Iges);
     Diagnostic::new(severity, "syntax", entity, error.to_string())
 }

@@ -370,8 +370,10 @@ fn placements(reader: &Reader<'_>, entry: u32) -> Outcome<Vec<Placement>> {
             let target = parameters.pointer()?;
             let offset = parameters.point()? * unit;
             let scale = parameters.optional_real().filter(|&scale| scale != 0.0).unwrap_or(1.0);
-            let own = DAffine3::from_translation(offset) * DAffine3::from_scale(DVec3::splat(scale));
-            Ok(vec![place(target, reader.placement_mm(directory)? * own)])
+            let scaled = DAffine3::from_scale(DVec3::splat(scale));
+            // The offset is in the space that the subfigure is placed in, and so comes after the matrix.
+            let placed = DAffine3::from_translation(offset) * reader.placement_mm(directory)? * scaled;
+            Ok(vec![place(target, placed)])
         }
         430 => {
             let target = parameters.pointer()?;

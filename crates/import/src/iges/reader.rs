@@ -113,7 +113,8 @@ pub(crate) struct Parameters<'f> {
 impl<'f> Parameters<'f> {
     /// What is wrong with the entity.
     pub fn fault(&self, message: impl AsRef<str>) -> Fault {
-        let what = format!("(type {}) {}", self.directory.entity_type, message.as_ref());
+        let DirectoryEntry { entity_type, line, .. } = self.directory;
+        let what = format!("(type {entity_type}, line {line}) {}", message.as_ref());
         Fault::new(self.directory.number, what)
     }
 
