@@ -56,7 +56,7 @@ impl Builder {
     fn mesh(mut self, solid: bool, deflection: f64) -> PartMesh {
         let faces =
             (0..self.part.faces.len() as u32).map(|face| ShellFace { face, reversed: false }).collect();
-        let shell = Shell { entity: EntityRef::None, closed: solid, void: false, faces };
+        let shell = Shell { entity: EntityRef::Step(1000), closed: solid, void: false, faces };
         self.part.bodies.push(Body {
             name: String::new(),
             entity: EntityRef::None,

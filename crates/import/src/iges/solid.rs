@@ -14,6 +14,7 @@ use super::curve::{Piece, joined};
 use super::look::{color_of, levels_of, name_of};
 use super::reader::{Fault, Outcome, Reader};
 use super::shape::ShapeBuilder;
+use crate::sew::free_edges;
 
 impl ShapeBuilder<'_> {
     /// Adds a solid (type 186) with its voids, or a shell of its own (type 514).
@@ -72,8 +73,7 @@ impl ShapeBuilder<'_> {
         let mut parameters = self.reader.parameters(entry)?;
         let name = name_of(&self.reader, entry).unwrap_or_default();
         let is_solid = parameters.directory.entity_type == 186;
-        // A closed shell that stands alone bounds a solid too.
-        let is_closed = is_solid || parameters.directory.form != 2;
+        let form = parameters.directory.form;
         let mut shared = SharedEdges::default();
         let mut shells = Vec::new();
         if is_solid {
@@ -86,9 +86,15 @@ impl ShapeBuilder<'_> {
         } else {
             shells.push(self.shell(entry, false, false, color, &mut shared)?);
         }
-        let kind = if is_closed { BodyKind::Solid } else { BodyKind::Sheet };
         let layers = levels_of(&self.reader, entry);
-        Ok(Body { name, entity: EntityRef::Iges(entry), kind, shells, layers })
+        let mut body = Body { name, entity: EntityRef::Iges(entry), kind: BodyKind::Solid, shells, layers };
+        // A shell that stands alone bounds a solid where it is said to close, and does.
+        let mut uses = vec![0; self.part.edges.len()];
+        if !is_solid && (form == 2 || !free_edges(&self.part, &body, &mut uses).is_empty()) {
+            body.kind = BodyKind::Sheet;
+            body.shells[0].closed = false;
+        }
+        Ok(body)
     }
 
     /// Type 514.
