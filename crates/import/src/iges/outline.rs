@@ -287,8 +287,11 @@ impl<'r, 'f> Builder<'r, 'f> {
         let mut groups = self.outline.groups;
         let mut children = vec![0usize; groups.len()];
         groups.iter().filter_map(|group| group.parent).for_each(|parent| children[parent] += 1);
+        // Where each group is to be found; those that stand in it come after it.
+        let mut place: Vec<usize> = (0..groups.len()).collect();
         for k in 1..groups.len() {
-            let parent = groups[k].parent.unwrap_or(0);
+            let parent = place[groups[k].parent.unwrap_or(0)];
+            groups[k].parent = Some(parent);
             let alone = children[parent] == 1
                 && groups[parent].geometry.is_empty()
                 && groups[parent].placements.is_empty();
@@ -298,13 +301,9 @@ impl<'r, 'f> Builder<'r, 'f> {
                 let outer = &mut groups[parent];
                 (outer.geometry, outer.placements) = (inner.geometry, inner.placements);
                 outer.color = inner.color.or(outer.color);
-                children[parent] = children[k];
-                groups
-                    .iter_mut()
-                    .filter(|group| group.parent == Some(k))
-                    .for_each(|g| g.parent = Some(parent));
                 groups[k].parent = Some(parent);
-                children[k] = 0;
+                children[parent] = std::mem::take(&mut children[k]);
+                place[k] = parent;
             }
         }
         Outline { groups }

@@ -133,9 +133,9 @@ impl<'f> SceneBuilder<'f> {
         let mut stack = vec![(root, built.clone(), within.to_vec())];
         while let Some((root, built, within)) = stack.pop() {
             let mut nodes = vec![root; built.groups.len()];
+            let holds_something = holding(&built);
             for (k, group) in built.groups.iter().enumerate() {
-                let is_left = k > 0 && is_empty(&built, k);
-                if k > 0 && !is_left {
+                if k > 0 && holds_something[k] {
                     let parent = nodes[group.parent.unwrap_or(0)];
                     let node = self.node(group, built.parts[k], names(group).0);
                     nodes[k] = self.add(parent, node);
@@ -186,17 +186,16 @@ impl<'f> SceneBuilder<'f> {
     }
 }
 
-/// Whether a group has neither a part nor placements nor a group below that has.
-fn is_empty(built: &Built, group: usize) -> bool {
+/// Per group, whether it or a group below it has a part or placements.
+fn holding(built: &Built) -> Vec<bool> {
     let holds = |k: usize| built.parts[k].is_some() || !built.groups[k].placements.is_empty();
-    !(group..built.groups.len()).any(|k| holds(k) && stands_in(&built.groups, k, group))
-}
-
-fn stands_in(groups: &[Group], mut group: usize, other: usize) -> bool {
-    while group > other {
-        group = groups[group].parent.unwrap_or(0);
+    let mut out: Vec<bool> = (0..built.groups.len()).map(holds).collect();
+    // Groups come after those that they stand in.
+    for k in (1..out.len()).rev() {
+        let parent = built.groups[k].parent.unwrap_or(0);
+        out[parent] |= out[k];
     }
-    group == other
+    out
 }
 
 /// Name and id of a group: a nameless one goes by its entity.
