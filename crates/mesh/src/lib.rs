@@ -64,7 +64,10 @@ pub fn mesh_part(part: &Part, options: &MeshOptions, monitor: &dyn Monitor) -> R
     mesh.curves =
         part.curves.par_iter().map(|c| CurveLine { points: line(c, tolerance), color: c.color }).collect();
     mesh.curves.retain(|c| c.points.len() > 1);
-    mesh.curves.extend(part.points.iter().flat_map(|point| cross(point, POINT_SHARE * size_mm(part))));
+    if !part.points.is_empty() {
+        let arm = POINT_SHARE * size_mm(part);
+        mesh.curves.extend(part.points.iter().flat_map(|point| cross(point, arm)));
+    }
     Ok(mesh)
 }
 
