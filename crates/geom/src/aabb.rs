@@ -36,6 +36,11 @@ impl Aabb {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
+    /// Whether all of `other` lies inside.
+    pub fn contains(self, other: Self) -> bool {
+        self.min.cmple(other.min).all() && other.max.cmple(self.max).all()
+    }
+
     /// Whether nothing has been added yet.
     pub fn is_empty(self) -> bool {
         !(self.min.cmple(self.max).all())

@@ -13,6 +13,11 @@ pub struct Entity<'a> {
 }
 
 impl<'a> Entity<'a> {
+    /// How long the text of its parameters is.
+    pub fn bytes(&self) -> usize {
+        self.text.len()
+    }
+
     /// All its parameters; the first is its type once more.
     pub fn values(&self) -> Values<'a> {
         Values { rest: Some(self.text), delimiters: self.delimiters }

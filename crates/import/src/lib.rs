@@ -30,6 +30,7 @@
 //! What is wrong with the file is repaired where that is possible and reported in any case; one bad entity costs
 //! at most its face.
 
+mod hint;
 mod iges;
 mod parallel;
 mod sew;

@@ -1,8 +1,13 @@
 //! Faces that do not share their edges, though the edges lie on each other.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use trimloop_brep::{Body, BodyKind, Diagnostic, Diagnostics, Edge, EdgeId, Part, Severity, VertexId};
+use trimloop_geom::Curve;
+
+use crate::hint::over;
 
 /// How far apart edges may lie to be one, millimetres: the nearest are joined first. The file's uncertainty is no
 /// good guide, it is often the modeller's and not the exporter's.
@@ -82,16 +87,23 @@ fn sew_edges(part: &mut Part, body: usize, free: &[EdgeId], reach: f64) -> usize
     if replaced.is_empty() {
         return 0;
     }
+    let image = |part: &Part, pcurve: &Curve, from: EdgeId, to: EdgeId, turned: bool| {
+        let [from, to] = [from, to].map(|id| &part.edges[id as usize]);
+        over(pcurve, from.range, to.range, turned != (from.same_sense != to.same_sense)).map(Arc::new)
+    };
     let faces: Vec<_> =
         part.bodies[body].shells.iter().flat_map(|shell| &shell.faces).map(|f| f.face).collect();
     for face in faces {
-        for coedge in part.faces[face as usize].loops.iter_mut().flat_map(|bound| &mut bound.coedges) {
+        let mut loops = std::mem::take(&mut part.faces[face as usize].loops);
+        for coedge in loops.iter_mut().flat_map(|bound| &mut bound.coedges) {
             if let Some(&(edge, turned)) = replaced.get(&coedge.edge) {
+                let pcurve = coedge.pcurve.take();
+                coedge.pcurve = pcurve.and_then(|pcurve| image(part, &pcurve, coedge.edge, edge, turned));
                 coedge.edge = edge;
                 coedge.reversed ^= turned;
-                coedge.pcurve = None;
             }
         }
+        part.faces[face as usize].loops = loops;
     }
     let used: Vec<EdgeId> = edges_of(part, &part.bodies[body]).collect();
     for id in used {
@@ -148,10 +160,35 @@ fn coincide(a: &Edge, b: &Edge, reach: f64) -> bool {
     if alike(false) || alike(true) {
         return true;
     }
+    // Where they do not, the feet still lie in about the same places.
+    let turned = (at(a, 0.0).distance(at(b, 0.0)) > at(a, 0.0).distance(at(b, 1.0))) && a.start != a.end;
     SHARES.iter().all(|&share| {
-        let foot = b.curve.project(at(a, share), None);
+        let point = at(a, share);
+        let start = b.range.at(if turned { 1.0 - share } else { share });
+        if near_parameter(b, point, start, reach).is_some() {
+            return true;
+        }
+        let foot = b.curve.project(point, None);
         foot.distance <= reach && share_at(b, foot.t).is_some_and(|s| (0.0..=1.0).contains(&s))
     })
+}
+
+/// Where a few Gauss-Newton steps along an edge from `t` lead to within `reach` of a point.
+pub(crate) fn near_parameter(edge: &Edge, point: DVec3, mut t: f64, reach: f64) -> Option<f64> {
+    let mut step = f64::INFINITY;
+    for _ in 0..8 {
+        let [at, along, _] = edge.curve.derivatives(t);
+        let next = edge.range.clamp(t - (at - point).dot(along) / along.length_squared());
+        if at.distance(point) <= reach && (next - t).abs() >= 0.5 * step {
+            return Some(t);
+        }
+        step = (next - t).abs();
+        if !step.is_finite() {
+            return None;
+        }
+        t = next;
+    }
+    (edge.curve.point(t).distance(point) <= reach).then_some(t)
 }
 
 /// Where along edges they are held against each other.

@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use trimloop_brep::{Coedge, Edge, EdgeId, FaceId, Part, Vertex, VertexId};
 use trimloop_geom::{Aabb, Interval};
 
-use crate::sew::share_at;
+use crate::sew::{near_parameter, share_at};
 
 /// Cuts the edges among `free` on which ends of others lie within `reach`, millimetres; gives how many cuts were made.
 pub(crate) fn split_edges(part: &mut Part, faces: &[FaceId], free: &[EdgeId], reach: f64) -> usize {
@@ -86,19 +86,19 @@ impl Ends {
 fn cut_points(part: &Part, id: EdgeId, ends: &Ends, reach: f64) -> Vec<(f64, DVec3)> {
     let edge = &part.edges[id as usize];
     let corners = [edge.start, edge.end].map(|vertex| part.vertices[vertex as usize].point);
-    let bounds = edge.curve.bounds(edge.range);
-    let bounds = Aabb { min: bounds.min - reach, max: bounds.max + reach };
     let line = Outline::new(edge);
     let mut out: Vec<(f64, DVec3)> = Vec::new();
-    for point in ends.within(bounds) {
-        if corners.iter().any(|corner| corner.distance(point) <= 2.0 * reach) || !line.is_near(point, reach) {
+    for point in ends.within(line.bounds(reach)) {
+        if corners.iter().any(|corner| corner.distance(point) <= 2.0 * reach) {
             continue;
         }
-        let foot = edge.curve.project(point, None);
-        let share = share_at(edge, foot.t).filter(|share| (1e-9..1.0 - 1e-9).contains(share));
-        if let Some(share) = share.filter(|_| foot.distance <= reach) {
-            out.push((edge.range.at(share), point));
-        }
+        let Some(share) = line.nearest(point, reach) else { continue };
+        let t = near_parameter(edge, point, edge.range.at(share), reach).or_else(|| {
+            let foot = edge.curve.project(point, None);
+            (foot.distance <= reach).then_some(foot.t)
+        });
+        let share = t.and_then(|t| share_at(edge, t)).filter(|share| (1e-9..1.0 - 1e-9).contains(share));
+        out.extend(share.map(|share| (edge.range.at(share), point)));
     }
     out.sort_by(|a, b| a.0.total_cmp(&b.0));
     out.dedup_by(|next, before| next.1.distance(before.1) <= 2.0 * reach);
@@ -122,9 +122,20 @@ impl Outline {
         Self { sag: sags.fold(0.0, f64::max), points: all.into_iter().step_by(2).collect() }
     }
 
-    fn is_near(&self, point: DVec3, reach: f64) -> bool {
+    /// What may be within `reach` of the edge is in this box.
+    fn bounds(&self, reach: f64) -> Aabb {
+        let margin = reach + 4.0 * self.sag;
+        let bounds = Aabb::from_points(self.points.iter().copied());
+        Aabb { min: bounds.min - margin, max: bounds.max + margin }
+    }
+
+    /// About where along the edge, as a share of its range, it comes nearest to a point; `None` where that is farther
+    /// than `reach`.
+    fn nearest(&self, point: DVec3, reach: f64) -> Option<f64> {
         let limit = reach + 4.0 * self.sag;
-        self.points.windows(2).any(|pair| !(segment_distance(point, pair[0], pair[1]) > limit))
+        let distances = self.points.windows(2).map(|pair| segment_distance(point, pair[0], pair[1]));
+        let (piece, distance) = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1))?;
+        (!(distance > limit)).then_some((piece as f64 + 0.5) / Self::PIECES as f64)
     }
 }
 
@@ -174,7 +185,8 @@ fn replaced(coedges: &[Coedge], parts: &FxHashMap<EdgeId, Vec<EdgeId>>) -> Vec<C
             out.push(coedge.clone());
             continue;
         };
-        let piece = |&edge: &EdgeId| Coedge { edge, reversed: coedge.reversed, pcurve: None };
+        let piece =
+            |&edge: &EdgeId| Coedge { edge, reversed: coedge.reversed, pcurve: coedge.pcurve.clone() };
         if coedge.reversed {
             out.extend(pieces.iter().rev().map(piece));
         } else {

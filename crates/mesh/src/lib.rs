@@ -16,6 +16,7 @@ mod options;
 mod orientation;
 mod part_mesh;
 mod seeds;
+mod size;
 mod strips;
 mod topology;
 mod triangulation;
@@ -27,11 +28,11 @@ pub use part_mesh::{CurveLine, EdgeLine, FaceMesh, FaceStatus, FaceVertex, PartM
 
 use glam::DVec3;
 use rayon::prelude::*;
-use trimloop_brep::{Diagnostic, FaceGeometry, FreePoint, Part, Severity};
-use trimloop_geom::Aabb;
+use trimloop_brep::{Diagnostic, FreePoint, Part, Severity};
 use trimloop_trim::{EdgeSamples, Tolerance, sample_curve, sample_edges};
 
 use crate::face::FaceMesher;
+use crate::size::size_mm;
 
 /// Meshes one part.
 ///
@@ -95,29 +96,6 @@ fn deflection_mm(part: &Part, deflection: LinearDeflection) -> f64 {
         LinearDeflection::Absolute(mm) => mm.max(least),
         LinearDeflection::Relative(share) => (size * share).max(least),
     }
-}
-
-/// The diagonal of the part's box, from its edges (and the surfaces of faces that have none).
-fn size_mm(part: &Part) -> f64 {
-    let mut bounds =
-        Aabb::from_points(part.vertices.iter().map(|v| v.point).chain(part.facet_points.iter().copied()));
-    for edge in &part.edges {
-        bounds = bounds.union(edge.curve.bounds(edge.range));
-    }
-    for face in part.faces.iter().filter(|f| f.loops.iter().all(|l| l.coedges.is_empty())) {
-        if let FaceGeometry::Surface(surface) = &face.geometry {
-            let domain = surface.domain();
-            if domain.iter().all(|d| d.is_finite()) {
-                bounds = bounds.union(surface.bounds(domain));
-            }
-        }
-    }
-    for curve in &part.curves {
-        bounds = bounds.union(curve.curve.bounds(curve.range));
-    }
-    bounds = bounds.union(Aabb::from_points(part.points.iter().map(|point| point.point)));
-    let size = bounds.diagonal();
-    if size.is_finite() && size > 0.0 { size } else { 1.0 }
 }
 
 /// Edges that lie off their surfaces by more than the bound.

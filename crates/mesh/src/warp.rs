@@ -1,7 +1,7 @@
 //! The metric of the parameter plane: lengths in it count tolerance steps.
 
 use glam::DVec2;
-use trimloop_geom::{Direction, Interval, Surface};
+use trimloop_geom::{Derivatives, Direction, Interval, Surface};
 use trimloop_trim::Tolerance;
 
 /// A monotone map of one parameter, linear between stations.
@@ -169,21 +169,18 @@ fn stations(surface: &Surface, direction: Direction, range: Interval) -> Vec<f64
 fn measure(surface: &Surface, stations: &[Vec<f64>; 2], tolerance: Tolerance) -> (Vec<Cell>, Vec<Cell>) {
     let none = Cell { step: f64::INFINITY, per_mm: 0.0 };
     let mut cells = [vec![none; stations[0].len() - 1], vec![none; stations[1].len() - 1]];
-    let mut probe = |u: f64, v: f64, i: usize, j: usize| {
-        let [su, sv] = steps_at(surface, DVec2::new(u, v), tolerance);
-        cells[0][i].tighten(su);
-        cells[1][j].tighten(sv);
-    };
     let middles = |s: &[f64]| s.windows(2).map(|w| (w[0] + w[1]) * 0.5).collect::<Vec<f64>>();
-    for (i, &u) in middles(&stations[0]).iter().enumerate() {
-        for (j, &v) in middles(&stations[1]).iter().enumerate() {
-            probe(u, v, i, j);
-            // Elementary surfaces have a single cell; its ends may be the extreme.
-            if stations[1].len() == 2 {
-                probe(u, stations[1][0], i, j);
-                probe(u, stations[1][1], i, j);
-            }
-        }
+    let us = middles(&stations[0]);
+    let mut vs = middles(&stations[1]);
+    // Elementary surfaces have a single cell; its ends may be the extreme.
+    if stations[1].len() == 2 {
+        vs.extend(&stations[1]);
+    }
+    let last = cells[1].len() - 1;
+    for (k, at) in surface.derivatives_grid(&us, &vs).iter().enumerate() {
+        let [su, sv] = steps_at(at, tolerance);
+        cells[0][k / vs.len()].tighten(su);
+        cells[1][(k % vs.len()).min(last)].tighten(sv);
     }
     let [mut u, mut v] = cells;
     for c in u.iter_mut().chain(&mut v) {
@@ -193,8 +190,7 @@ fn measure(surface: &Surface, stations: &[Vec<f64>; 2], tolerance: Tolerance) ->
 }
 
 /// The steps in u and v at one point that keep both bounds.
-fn steps_at(surface: &Surface, uv: DVec2, tolerance: Tolerance) -> [Cell; 2] {
-    let d = surface.derivatives(uv);
+fn steps_at(d: &Derivatives, tolerance: Tolerance) -> [Cell; 2] {
     let cross = d.du.cross(d.dv);
     let area = cross.length();
     let none = |t: glam::DVec3| Cell { step: f64::INFINITY, per_mm: 1.0 / t.length() };

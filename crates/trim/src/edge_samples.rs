@@ -1,5 +1,6 @@
 //! Every edge of a part as one polyline, shared by all its faces, with its image in each of their parameter planes.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -198,6 +199,19 @@ struct Sampler<'a> {
     snap: f64,
 }
 
+/// What is known of where a sample's foot lies on a surface.
+enum Hint {
+    /// The foot itself.
+    Foot(SurfacePoint),
+    /// Parameters near it.
+    Near(DVec2),
+    /// Nothing.
+    None,
+}
+
+/// Up to this share of their own length, points are the same.
+const EXACT: f64 = 1e-14;
+
 /// How often a chord may be halved.
 const MAX_DEPTH: u32 = 14;
 
@@ -215,7 +229,7 @@ impl Sampler<'_> {
             let near = samples.last().cloned();
             let mut next = self.sample(t, point, near.as_ref(), None);
             if let Some(near) = near {
-                next.sag = self.fill(&near, &next, 0, &mut samples);
+                next.sag = self.fill(&near, &next, None, 0, &mut samples);
             }
             samples.push(next);
         }
@@ -320,7 +334,7 @@ impl Sampler<'_> {
         };
         let regular = |s: &Sample| s.sides.iter().all(|f| f.singular.is_none());
         let straight = |pair: &[Sample]| {
-            (pair[1].point - pair[0].point).angle_between(along) <= self.tolerance.angular_rad * 0.45
+            !turns_by_more(pair[1].point - pair[0].point, along, self.tolerance.angular_rad * 0.45)
         };
         inner.iter().all(regular)
             && run.windows(2).all(near)
@@ -338,6 +352,7 @@ impl Sampler<'_> {
         Sample { t, point, sag: 0.0, sides: sides.collect() }
     }
 
+    /// Where to look for the foot of a sample; the foot itself, where that is known.
     fn hint(
         &self,
         ground: &Ground,
@@ -346,20 +361,26 @@ impl Sampler<'_> {
         point: DVec3,
         near: Option<&Sample>,
         other: Option<&Sample>,
-    ) -> Option<DVec2> {
+    ) -> Hint {
         if !matches!(*ground.surface, Surface::Plane { .. })
             && let Some(pcurve) = &ground.pcurve
         {
             let uv = pcurve.point(t).truncate();
-            if uv.is_finite() && ground.surface.point(uv).distance(point) < self.tolerance.linear_mm {
-                return Some(uv);
+            let on_surface = ground.surface.point(uv);
+            let distance = on_surface.distance(point);
+            if distance <= EXACT * (point.length() + on_surface.length()) {
+                return Hint::Foot(SurfacePoint { uv, point: on_surface, distance });
+            }
+            let first = near.is_none() && other.is_none();
+            if uv.is_finite() && (first || distance < self.tolerance.linear_mm) {
+                return Hint::Near(uv);
             }
         }
         let regular = |s: &Sample| s.sides[k].singular.is_none().then_some(s.sides[k].uv);
         match (near.and_then(regular), other.and_then(regular)) {
-            (Some(a), Some(b)) => Some((a + self.nearest_image(ground, b, a)) * 0.5),
-            (Some(a), None) | (None, Some(a)) => Some(a),
-            (None, None) => None,
+            (Some(a), Some(b)) => Hint::Near((a + self.nearest_image(ground, b, a)) * 0.5),
+            (Some(a), None) | (None, Some(a)) => Hint::Near(a),
+            (None, None) => Hint::None,
         }
     }
 
@@ -370,9 +391,13 @@ impl Sampler<'_> {
         uv + DVec2::new(shift(ground.periods[0], uv.x, to.x), shift(ground.periods[1], uv.y, to.y))
     }
 
-    fn foot(&self, ground: &Ground, point: DVec3, hint: Option<DVec2>) -> Foot {
+    fn foot(&self, ground: &Ground, point: DVec3, hint: Hint) -> Foot {
         let singular = ground.singularities.iter().position(|s| s.point.distance(point) <= self.snap);
-        let foot = self.project(ground, point, hint);
+        let foot = match hint {
+            Hint::Foot(foot) => foot,
+            Hint::Near(uv) => self.project(ground, point, Some(uv)),
+            Hint::None => self.project(ground, point, None),
+        };
         let normal = (ground.curved && singular.is_none()).then(|| ground.surface.normal(foot.uv)).flatten();
         Foot { uv: foot.uv, normal, singular: singular.map(|s| s as u8), distance: foot.distance }
     }
@@ -388,40 +413,54 @@ impl Sampler<'_> {
     }
 
     /// Adds the samples strictly between `a` and `b`. Gives how far the curve is from the chord that ends at `b`.
-    fn fill(&self, a: &Sample, b: &Sample, depth: u32, out: &mut Vec<Sample>) -> f64 {
+    /// `middle` is the curve's point halfway, where that is known.
+    fn fill(&self, a: &Sample, b: &Sample, middle: Option<DVec3>, depth: u32, out: &mut Vec<Sample>) -> f64 {
         if depth >= MAX_DEPTH || !(a.t - b.t).abs().is_normal() {
             return 0.0;
         }
         let t = (a.t + b.t) * 0.5;
-        let point = self.curve.point(t);
-        if let Some(sag) = self.accepted(a, b, point) {
+        let point = middle.unwrap_or_else(|| self.curve.point(t));
+        let mut quarters = None;
+        if let Some(sag) = self.accepted(a, b, point, &mut quarters) {
             return sag;
         }
         let mut middle = self.sample(t, point, Some(a), Some(b));
-        middle.sag = self.fill(a, &middle, depth + 1, out);
+        middle.sag = self.fill(a, &middle, quarters.map(|q| q[0]), depth + 1, out);
         out.push(middle.clone());
-        self.fill(&middle, b, depth + 1, out)
+        self.fill(&middle, b, quarters.map(|q| q[1]), depth + 1, out)
     }
 
-    /// How far the curve is from its chord; `None` where that, or the turn of the faces, is too much.
-    fn accepted(&self, a: &Sample, b: &Sample, middle: DVec3) -> Option<f64> {
+    /// How far the curve is from its chord; `None` where that, or the turn of the faces, is too much. Gives the curve's
+    /// points at the `quarters` where it has asked for them.
+    fn accepted(
+        &self,
+        a: &Sample,
+        b: &Sample,
+        middle: DVec3,
+        quarters: &mut Option<[DVec3; 2]>,
+    ) -> Option<f64> {
         let chord = b.point - a.point;
         let length = (middle - a.point).length() + (b.point - middle).length();
         if length <= self.tolerance.shortest_chord_mm() {
             return Some(length);
         }
+        // The chords of the two halves turn by half as much as the tangents at the ends do.
+        let most = 0.5 * self.tolerance.angular_rad * 1.001;
+        if !matches!(self.curve, Curve::Line { .. })
+            && turns_by_more(middle - a.point, b.point - middle, most)
+        {
+            return None;
+        }
         let sag = match self.curve {
             Curve::Line { .. } => 0.0,
             Curve::Nurbs(_) => {
                 let at = |share: f64| self.curve.point(a.t + (b.t - a.t) * share);
-                sag(a.point, chord, [at(0.25), middle, at(0.75)])
+                let [first, last] = *quarters.insert([at(0.25), at(0.75)]);
+                sag(a.point, chord, [first, middle, last])
             }
             _ => off_chord(a.point, chord, middle).length(),
         };
-        // The chords of the two halves turn by half as much as the tangents at the ends do.
-        let turn = 2.0 * (middle - a.point).angle_between(b.point - middle);
-        let bends = !matches!(self.curve, Curve::Line { .. }) && turn > self.tolerance.angular_rad * 1.001;
-        if sag > self.tolerance.linear_mm || bends {
+        if sag > self.tolerance.linear_mm {
             return None;
         }
         let mut sides = a.sides.iter().zip(&b.sides).zip(self.grounds);
@@ -454,14 +493,14 @@ impl Sampler<'_> {
     fn turns_at_its_end(&self, ground: &Ground, a: &Foot, b: &Foot, most: f64) -> bool {
         let to = self.nearest_image(ground, b.uv, a.uv);
         let [na, nb] = [1e-4, 1.0 - 1e-4].map(|share| ground.surface.normal(a.uv.lerp(to, share)));
-        matches!((na, nb), (Some(na), Some(nb)) if na.angle_between(nb) <= most)
+        matches!((na, nb), (Some(na), Some(nb)) if !turns_by_more(na, nb, most))
     }
 
     /// Whether the surface turns, or its parameters run, too far between two feet.
     fn turns(&self, ground: &Ground, a: &Foot, b: &Foot) -> bool {
         let most = self.tolerance.angular_rad * 1.001;
         if let (Some(na), Some(nb)) = (a.normal, b.normal)
-            && na.angle_between(nb) > most
+            && turns_by_more(na, nb, most)
             && !(ground.free_form && self.turns_at_its_end(ground, a, b, most))
         {
             return true;
@@ -479,4 +518,9 @@ impl Sampler<'_> {
         };
         far(Direction::U) || far(Direction::V)
     }
+}
+
+/// Whether the angle between two vectors is more than `most`, radians.
+fn turns_by_more(a: DVec3, b: DVec3, most: f64) -> bool {
+    a.dot(b) < most.min(PI).cos() * (a.length_squared() * b.length_squared()).sqrt()
 }

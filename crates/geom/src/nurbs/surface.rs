@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use glam::{DAffine3, DVec2, DVec3, DVec4};
 
-use super::basis::{Basis, Row, by_degree};
+use super::basis::{Basis, Row, by_degree, find_span};
 use super::closure::{self, Sides};
 use super::control::{self, Control, lift_all, lower};
 use super::{NurbsError, knots};
@@ -222,6 +222,65 @@ impl NurbsSurface {
             }));
         }
         grid
+    }
+
+    /// Point, first and second derivatives on the grid `us` x `vs`, row-major over `us`. The basis is evaluated once
+    /// per row and once per column.
+    pub fn derivatives_grid(&self, us: &[f64], vs: &[f64]) -> Vec<Derivatives> {
+        let data = &*self.0;
+        by_degree!(data.degrees, R, P => {
+            let basis = |d: usize, t: f64| {
+                let t = self.settle_along(d, t);
+                Basis::<R>::new::<2, P>(&data.knots[d], data.degrees[d], data.shape[d], t)
+            };
+            let columns = data.shape[1];
+            let across: Vec<Basis<R>> = vs.iter().map(|&v| basis(1, v)).collect();
+            let mut grid = Vec::with_capacity(us.len() * vs.len());
+            for &u in us {
+                let along = basis(0, u);
+                if data.homogeneous.is_empty() {
+                    grid.extend(across.iter().map(|across| {
+                        named(contract::<_, _, 2, P>(&data.points, columns, &along, across, data.degrees))
+                    }));
+                } else {
+                    grid.extend(across.iter().map(|across| {
+                        let sums = contract::<_, _, 2, P>(&data.homogeneous, columns, &along, across, data.degrees);
+                        named(control::project_surface::<2>(sums))
+                    }));
+                }
+            }
+            grid
+        })
+    }
+
+    /// The parameters that belong to the control point nearest to `point`: the averages of the knots that it rules
+    /// (Greville abscissae).
+    pub(crate) fn near_control_point(&self, point: DVec3) -> DVec2 {
+        let data = &*self.0;
+        let distances = data.points.iter().map(|p| p.distance_squared(point));
+        let nearest = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(k, _)| k);
+        let greville = |d: usize, index: usize| {
+            let knots = &data.knots[d][index + 1..=index + data.degrees[d]];
+            data.domain[d].clamp(knots.iter().sum::<f64>() / knots.len() as f64)
+        };
+        DVec2::new(greville(0, nearest / data.shape[1]), greville(1, nearest % data.shape[1]))
+    }
+
+    /// A box that holds the part over `domain`: of all control points that it depends on, so wider than the hull of the
+    /// part cut out, and found at once. On a closed direction, all of it where `domain` leaves the surface's own.
+    pub fn net_bounds(&self, domain: [Interval; 2]) -> Aabb {
+        let data = &*self.0;
+        let lines = [0, 1].map(|d| {
+            let (own, degree, count) = (data.domain[d], data.degrees[d], data.shape[d]);
+            if data.sides.closed[d] && (domain[d].start < own.start || domain[d].end > own.end) {
+                return 0..count;
+            }
+            let span = |t: f64| find_span(&data.knots[d], degree, count, own.clamp(t));
+            span(domain[d].start) - degree..span(domain[d].end) + 1
+        });
+        let [rows, columns] = lines;
+        let row = |i: usize| &data.points[i * data.shape[1]..][columns.clone()];
+        Aabb::from_points(rows.flat_map(row).copied())
     }
 
     /// Points over the surface from which a global search starts.

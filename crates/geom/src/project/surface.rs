@@ -25,7 +25,11 @@ impl Surface {
             Self::Revolution { profile, origin, axis } => {
                 swept::project_revolution(profile, *origin, *axis, point, hint)
             }
-            Self::Nurbs(nurbs) => self.search(point, hint, || Cow::Borrowed(nurbs.samples())),
+            Self::Nurbs(nurbs) => {
+                // Mostly the point lies on the surface, and the control points lead there without any sample.
+                let start = hint.unwrap_or_else(|| nurbs.near_control_point(point));
+                self.settle(self.search(point, start, || Cow::Borrowed(nurbs.samples())), hint)
+            }
             Self::Offset { basis, distance } => self.project_offset(basis, *distance, point, hint),
             _ => elementary::project(self, point, hint).unwrap_or_default(),
         };
@@ -37,14 +41,8 @@ impl Surface {
         SurfacePoint { uv, point, distance: point.distance(target) }
     }
 
-    fn search<'a>(
-        &'a self,
-        point: DVec3,
-        hint: Option<DVec2>,
-        samples: impl Fn() -> Cow<'a, SampleGrid>,
-    ) -> DVec2 {
-        let search = SurfaceSearch::new(self);
-        self.settle(search.nearest(point, hint, samples).uv, hint)
+    fn search<'a>(&'a self, point: DVec3, start: DVec2, samples: impl Fn() -> Cow<'a, SampleGrid>) -> DVec2 {
+        SurfaceSearch::new(self).nearest(point, Some(start), samples).uv
     }
 
     /// The feet on an offset and on its basis share their parameters, if not always the same one is nearest: without a

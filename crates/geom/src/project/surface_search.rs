@@ -147,6 +147,9 @@ impl<'a> SurfaceSearch<'a> {
         let scale = at.point.length() + target.length();
         let mut previous = 0.0;
         for _ in 0..STEPS {
+            if at.point.distance_squared(target) <= square(1e-14 * scale) {
+                break;
+            }
             let gradient = Gradient::new(&at, target, uv, &self.limits);
             if gradient.free == [false, false] {
                 break;
@@ -284,6 +287,10 @@ impl Gradient {
 fn solve([a, b, c]: [f64; 3], slope: DVec2) -> DVec2 {
     let determinant = a * c - b * b;
     DVec2::new(b * slope.y - c * slope.x, b * slope.x - a * slope.y) / determinant
+}
+
+fn square(x: f64) -> f64 {
+    x * x
 }
 
 fn quotient(a: f64, b: f64) -> f64 {

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{Surface, revolve};
+use crate::Derivatives;
 
 impl Surface {
     /// Points on the grid `us` x `vs`, row-major: index `i * vs.len() + j` is the point at (`us[i]`, `vs[j]`).
@@ -27,6 +28,16 @@ impl Surface {
             }
             Self::Plane { .. } | Self::Offset { .. } => {
                 us.iter().flat_map(|&u| vs.iter().map(move |&v| self.point(DVec2::new(u, v)))).collect()
+            }
+        }
+    }
+
+    /// Point, first and second derivatives on the grid `us` x `vs`, in the order of [`Surface::grid`].
+    pub fn derivatives_grid(&self, us: &[f64], vs: &[f64]) -> Vec<Derivatives> {
+        match self {
+            Self::Nurbs(nurbs) => nurbs.derivatives_grid(us, vs),
+            _ => {
+                us.iter().flat_map(|&u| vs.iter().map(move |&v| self.derivatives(DVec2::new(u, v)))).collect()
             }
         }
     }

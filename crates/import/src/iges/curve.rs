@@ -1,6 +1,7 @@
 //! Curves (IGES 5.3 sections 4.3 to 4.23).
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use glam::{DAffine3, DMat2, DVec2, DVec3};
 use trimloop_geom::{
@@ -14,20 +15,27 @@ use super::reader::{Fault, MAX_DEPTH, Outcome, Parameters, Reader};
 pub(crate) struct Piece {
     pub curve: Curve,
     pub range: Interval,
+    /// The same over the same range in the parameters of a surface that the curve lies on, as far as is known.
+    pub image: Option<Arc<Curve>>,
 }
 
 /// Types of entities that are curves.
 pub(crate) const CURVES: [i32; 8] = [100, 102, 104, 106, 110, 112, 126, 130];
 
 impl Piece {
-    /// The piece moved.
+    /// A curve over a range.
+    pub fn new(curve: Curve, range: Interval) -> Self {
+        Self { curve, range, image: None }
+    }
+
+    /// The piece moved, as its surface is.
     pub fn placed(&self, map: &DAffine3) -> Self {
-        Self { curve: self.curve.transformed(map), range: self.range }
+        Self { curve: self.curve.transformed(map), range: self.range, image: self.image.clone() }
     }
 
     /// The piece run the other way.
     pub fn reversed(&self) -> Self {
-        let Self { curve, range } = self;
+        let Self { curve, range, .. } = self;
         let back = Interval::new(-range.end, -range.start);
         let over = |frame: &Frame| Frame::new(frame.origin, -frame.z, frame.x);
         let (curve, range) = match curve {
@@ -44,7 +52,7 @@ impl Piece {
                 (curve, Interval::new(0.0, 1.0))
             }
         };
-        Self { curve, range }
+        Self::new(curve, range)
     }
 
     /// Its ends.
@@ -133,11 +141,11 @@ impl Reader<'_> {
         let unscaled = Reader { unit_mm: 1.0, ..*self };
         let mut pieces = Vec::new();
         unscaled.add_pieces(basis, true, depth + 1, &mut pieces)?;
-        let Piece { curve: basis, range: whole } = joined(pieces, parameters)?;
+        let Piece { curve: basis, range: whole, .. } = joined(pieces, parameters)?;
         let range = if range.end > range.start { range } else { whole };
         // The offset is to the side that the normal crossed with the tangent points to.
         let curve = Curve::Offset(Box::new(OffsetCurve { basis, distance, ref_direction: -normal }));
-        Ok(Piece { curve, range })
+        Ok(Piece::new(curve, range))
     }
 }
 
@@ -150,9 +158,12 @@ pub(crate) fn joined(mut pieces: Vec<Piece>, parameters: &Parameters<'_>) -> Out
         return Err(parameters.fault("has a curve without any part"));
     }
     let range = Interval::new(0.0, pieces.len() as f64);
-    let segments =
-        pieces.into_iter().map(|Piece { curve, range }| CompositeSegment { curve, range, reversed: false });
-    Ok(Piece { curve: Curve::Composite(CompositeCurve { segments: segments.collect() }), range })
+    let segments = pieces.into_iter().map(|Piece { curve, range, .. }| CompositeSegment {
+        curve,
+        range,
+        reversed: false,
+    });
+    Ok(Piece::new(Curve::Composite(CompositeCurve { segments: segments.collect() }), range))
 }
 
 /// Type 100: counter-clockwise about +z.
@@ -170,14 +181,14 @@ fn arc(parameters: &mut Parameters<'_>) -> Outcome<Piece> {
     if angle < 1e-9 || start.distance(end) <= 1e-9 * radius {
         angle += TAU;
     }
-    Ok(Piece { curve: Curve::Circle { frame, radius }, range: Interval::new(0.0, angle.min(TAU)) })
+    Ok(Piece::new(Curve::Circle { frame, radius }, Interval::new(0.0, angle.min(TAU))))
 }
 
 /// Type 110.
 fn line(parameters: &mut Parameters<'_>) -> Outcome<Piece> {
     let (start, end) = (parameters.point()?, parameters.point()?);
     let curve = Curve::Line { origin: start, direction: end - start };
-    Ok(Piece { curve, range: Interval::new(0.0, 1.0) })
+    Ok(Piece::new(curve, Interval::new(0.0, 1.0)))
 }
 
 /// Type 106: the forms that are lines through points.
@@ -195,7 +206,7 @@ fn copious(parameters: &mut Parameters<'_>) -> Outcome<Piece> {
     }
     let polyline = Polyline { points };
     let range = polyline.domain();
-    Ok(Piece { curve: Curve::Polyline(polyline), range })
+    Ok(Piece::new(Curve::Polyline(polyline), range))
 }
 
 /// The points of copious data; vectors that go with them are left out.
@@ -228,7 +239,7 @@ fn rational_spline(parameters: &mut Parameters<'_>) -> Outcome<Piece> {
     let domain = curve.domain();
     let told = range.map(|(start, end)| Interval::new(domain.clamp(start), domain.clamp(end)));
     let range = told.filter(|range| range.length() > 1e-12 * domain.length()).unwrap_or(domain);
-    Ok(Piece { curve: Curve::Nurbs(curve), range })
+    Ok(Piece::new(Curve::Nurbs(curve), range))
 }
 
 /// Type 112: polynomials of degree three end to end.
@@ -253,7 +264,7 @@ fn parametric_spline(parameters: &mut Parameters<'_>) -> Outcome<Piece> {
     let curve = NurbsCurve::new(3, points, Vec::new(), knots);
     let curve = curve.map_err(|error| parameters.fault(format!("is no spline: {error}")))?;
     let range = curve.domain();
-    Ok(Piece { curve: Curve::Nurbs(curve), range })
+    Ok(Piece::new(Curve::Nurbs(curve), range))
 }
 
 /// The knots of cubic Bezier pieces between `breaks`.
@@ -278,14 +289,14 @@ fn conic(parameters: &mut Parameters<'_>) -> Outcome<Piece> {
     if let Some(period) = curve.period() {
         let turn = (to - from).rem_euclid(period);
         let turn = if turn < 1e-9 { period } else { turn };
-        return Ok(Piece { curve, range: Interval::new(from, from + turn) });
+        return Ok(Piece::new(curve, Interval::new(from, from + turn)));
     }
     if from <= to {
-        return Ok(Piece { curve, range: Interval::new(from, to) });
+        return Ok(Piece::new(curve, Interval::new(from, to)));
     }
     // Run the other way, by turning the frame over.
     let curve = turned_over(curve);
-    Ok(Piece { curve, range: Interval::new(-from, -to) })
+    Ok(Piece::new(curve, Interval::new(-from, -to)))
 }
 
 fn turned_over(curve: Curve) -> Curve {

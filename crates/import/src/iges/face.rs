@@ -8,6 +8,7 @@ use trimloop_geom::{Curve, Direction, Interval, Surface};
 use super::curve::Piece;
 use super::reader::{Fault, Outcome, Parameters, Reader};
 use super::surface::Ground;
+use crate::hint::over;
 
 /// Reads faces; changes nothing, so that many can be read at once.
 #[derive(Clone, Copy)]
@@ -161,6 +162,10 @@ impl FaceReader<'_> {
         }
         if has_outer && on_model {
             let (surface, same_sense) = ground.simplified();
+            if !matches!(surface, Surface::Nurbs(_)) {
+                let pieces = bounds.iter_mut().flat_map(|bound| &mut bound.pieces);
+                pieces.for_each(|(piece, _)| piece.image = None);
+            }
             return Ok(FaceDraft { surface: Arc::new(surface), same_sense, bounds });
         }
         Ok(FaceDraft { surface: exact, same_sense: !ground.reversed, bounds })
@@ -272,10 +277,18 @@ impl FaceReader<'_> {
         ground: &Ground,
         surface: &Arc<Surface>,
     ) -> Outcome<Vec<Piece>> {
-        let model = match in_model {
+        let mut model = match in_model {
             0 => Err(parameters.fault("has no curve in the model")),
             entry => self.reader.curve(entry),
         };
+        let images = self.images(in_plane, ground);
+        if let (Ok(pieces), Ok(images)) = (&mut model, &images)
+            && pieces.len() == images.len()
+        {
+            for (piece, image) in pieces.iter_mut().zip(images) {
+                piece.image = image_of(piece, image, surface);
+            }
+        }
         let reach = self.uncertainty_mm.max(1e-3) * if prefers_plane { 10.0 } else { 100.0 };
         if let Ok(pieces) = &model
             && !prefers_plane
@@ -283,17 +296,16 @@ impl FaceReader<'_> {
         {
             return model;
         }
-        let mut out = Vec::new();
-        for &entry in in_plane.iter().filter(|&&entry| entry != 0) {
-            match self.reader.parameter_curve(entry) {
-                Ok(pieces) => out.extend(pieces.into_iter().map(|piece| {
-                    let pcurve = Arc::new(piece.curve.transformed(&ground.parameters));
-                    let curve = Curve::OnSurface { surface: surface.clone(), pcurve };
-                    Piece { curve, range: piece.range }
-                })),
-                Err(fault) => return model.map_err(|_| fault),
-            }
-        }
+        let images = match images {
+            Ok(images) => images,
+            Err(fault) => return model.map_err(|_| fault),
+        };
+        let on_surface = |Piece { curve, range, .. }: Piece| {
+            let pcurve = Arc::new(curve);
+            let image = Some(pcurve.clone());
+            Piece { curve: Curve::OnSurface { surface: surface.clone(), pcurve }, range, image }
+        };
+        let out: Vec<Piece> = images.into_iter().map(on_surface).collect();
         // Where both say the same, the curve in the model is the one that neighbours have too.
         match &model {
             Ok(pieces) if out.is_empty() || prefers_plane && are_alike(pieces, &out, reach) => model,
@@ -301,6 +313,26 @@ impl FaceReader<'_> {
             _ => Ok(out),
         }
     }
+
+    /// Curves in the parameter plane, in the parameters that the surface has here.
+    fn images(&self, in_plane: &[u32], ground: &Ground) -> Outcome<Vec<Piece>> {
+        let mut out = Vec::new();
+        for &entry in in_plane.iter().filter(|&&entry| entry != 0) {
+            let pieces = self.reader.parameter_curve(entry)?;
+            let map = &ground.parameters;
+            out.extend(pieces.iter().map(|piece| Piece::new(piece.curve.transformed(map), piece.range)));
+        }
+        Ok(out)
+    }
+}
+
+/// A curve in the parameter plane over the range of the curve in the model that it stands for, if it runs with it.
+fn image_of(piece: &Piece, image: &Piece, surface: &Surface) -> Option<Arc<Curve>> {
+    let ends = [0.0, 1.0].map(|share| surface.point(image.curve.point(image.range.at(share)).truncate()));
+    let [start, end] = piece.ends();
+    let turned =
+        start.distance(ends[0]) > start.distance(ends[1]) && end.distance(ends[1]) > end.distance(ends[0]);
+    over(&image.curve, image.range, piece.range, turned).map(Arc::new)
 }
 
 /// The sides of a surface's domain as a loop, so that they can be sewn; none where it closes both ways.
@@ -313,17 +345,19 @@ fn natural_bound(surface: &Arc<Surface>, domain: [Interval; 2], entry: u32) -> O
     let [u, v] = domain;
     let at = |u: f64, v: f64| DVec3::new(u, v, 0.0);
     let side = |constant: Direction, at_value: f64, turned: bool| {
-        if let Surface::Nurbs(nurbs) = &**surface {
-            let curve = nurbs.isocurve(constant, at_value).ok()?;
-            let range = curve.domain();
-            return Some((Piece { curve: Curve::Nurbs(curve), range }, turned));
-        }
         let (origin, direction, range) = match constant {
             Direction::U => (at(at_value, 0.0), DVec3::Y, v),
             Direction::V => (at(0.0, at_value), DVec3::X, u),
         };
         let pcurve = Arc::new(Curve::Line { origin, direction });
-        Some((Piece { curve: Curve::OnSurface { surface: surface.clone(), pcurve }, range }, turned))
+        let image = Some(pcurve.clone());
+        if let Surface::Nurbs(nurbs) = &**surface {
+            let curve = nurbs.isocurve(constant, at_value).ok()?;
+            let range = curve.domain();
+            return Some((Piece { curve: Curve::Nurbs(curve), range, image }, turned));
+        }
+        let curve = Curve::OnSurface { surface: surface.clone(), pcurve };
+        Some((Piece { curve, range, image }, turned))
     };
     let sides = [
         side(Direction::V, v.start, false)?,
@@ -339,7 +373,13 @@ fn natural_bound(surface: &Arc<Surface>, domain: [Interval; 2], entry: u32) -> O
 fn lies_on(piece: &Piece, surface: &Surface, reach: f64) -> bool {
     let mut hint = None;
     [0.0, 0.31, 0.72, 1.0].into_iter().all(|share| {
-        let foot = surface.project(piece.curve.point(piece.range.at(share)), hint);
+        let t = piece.range.at(share);
+        let point = piece.curve.point(t);
+        let image = piece.image.as_ref().map(|image| image.point(t).truncate());
+        if image.is_some_and(|uv| surface.point(uv).distance(point) <= reach) {
+            return true;
+        }
+        let foot = surface.project(point, image.or(hint));
         hint = Some(foot.uv);
         foot.distance <= reach
     })

@@ -20,7 +20,7 @@ use trimloop_brep::{Diagnostic, Diagnostics, EntityRef, Model, Severity, Source}
 use trimloop_iges::{IgesFile, Section};
 
 use self::outline::{Outline, Uses};
-use self::reader::Reader;
+use self::reader::{Reader, read_long_entities};
 use self::scene::SceneBuilder;
 use crate::ImportError;
 
@@ -28,7 +28,8 @@ use crate::ImportError;
 pub(crate) fn import(file: &IgesFile) -> Result<Model, ImportError> {
     let mut diagnostics: Diagnostics = file.errors().iter().map(syntax_diagnostic).collect();
     let unit_mm = unit_mm(file, &mut diagnostics);
-    let reader = Reader { file, unit_mm };
+    let long = read_long_entities(file);
+    let reader = Reader { file, long: &long, unit_mm };
     let outline = Outline::of_file(&reader, &Uses::new(&reader), &mut diagnostics);
     let uncertainty_mm = file.global().resolution * unit_mm;
     let scene = SceneBuilder::new(reader, uncertainty_mm, diagnostics);

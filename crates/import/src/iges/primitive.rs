@@ -382,7 +382,7 @@ impl Turn {
         let center = self.foot(p);
         let frame = Frame::new(center, self.axis, p - center);
         let curve = Curve::Circle { frame, radius: p.distance(center) };
-        (!self.on_axis(p)).then(|| Piece { curve, range: Interval::new(0.0, self.angle) })
+        (!self.on_axis(p)).then(|| Piece::new(curve, Interval::new(0.0, self.angle)))
     }
 
     fn surface(&self, piece: &Piece) -> Surface {
@@ -400,7 +400,7 @@ impl Turn {
 
 fn segment(start: DVec3, end: DVec3) -> Piece {
     let curve = Curve::Line { origin: start, direction: end - start };
-    Piece { curve, range: Interval::new(0.0, 1.0) }
+    Piece::new(curve, Interval::new(0.0, 1.0))
 }
 
 /// A straight piece from its end to its start; others as they are.
@@ -425,10 +425,10 @@ fn halves(piece: Piece) -> Vec<Piece> {
         return vec![piece];
     }
     let middle = piece.range.at(0.5);
-    let Piece { curve, range } = piece;
+    let Piece { curve, range, .. } = piece;
     vec![
-        Piece { curve: curve.clone(), range: Interval::new(range.start, middle) },
-        Piece { curve, range: Interval::new(middle, range.end) },
+        Piece::new(curve.clone(), Interval::new(range.start, middle)),
+        Piece::new(curve, Interval::new(middle, range.end)),
     ]
 }
 

@@ -1,8 +1,13 @@
 //! Entities and their parameters, with what is wrong with them.
 
+use std::borrow::Cow;
+
 use glam::{DAffine3, DMat3, DVec3};
+use rustc_hash::FxHashMap;
 use trimloop_brep::{Diagnostic, EntityRef, Severity};
-use trimloop_iges::{DirectoryEntry, IgesFile, Value};
+use trimloop_iges::{DirectoryEntry, Entity, IgesFile, Value};
+
+use crate::parallel;
 
 /// Why an entity could not be understood.
 #[derive(Clone, Debug)]
@@ -32,8 +37,32 @@ impl Fault {
 #[derive(Clone, Copy)]
 pub(crate) struct Reader<'f> {
     pub file: &'f IgesFile,
+    /// The parameters of entities that have many, read beforehand.
+    pub long: &'f LongEntities<'f>,
     /// Millimetres per unit of model space.
     pub unit_mm: f64,
+}
+
+/// The parameters of entities that have many, by directory entry.
+pub(crate) type LongEntities<'f> = FxHashMap<u32, Vec<Value<'f>>>;
+
+/// Entities of more text than this, bytes, are read beforehand, in parallel.
+const LONG: usize = 400;
+
+/// Reads the parameters of the curves and surfaces that have many.
+pub(crate) fn read_long_entities(file: &IgesFile) -> LongEntities<'_> {
+    let is_long = |entity: &Entity<'_>| {
+        matches!(entity.directory.entity_type, 106 | 112 | 114 | 126 | 128) && entity.bytes() > LONG
+    };
+    let long: Vec<Entity<'_>> = file.entities().filter(is_long).collect();
+    let read = parallel::map_each(&long, |entity| (entity.directory.number, values_of(entity)));
+    read.into_iter().collect()
+}
+
+fn values_of<'f>(entity: &Entity<'f>) -> Vec<Value<'f>> {
+    let mut values = Vec::with_capacity(entity.bytes() / 16 + 8);
+    values.extend(entity.values());
+    values
 }
 
 /// How deeply entities may refer to one another.
@@ -43,7 +72,10 @@ impl<'f> Reader<'f> {
     /// The parameters of an entity; the first that is read comes after its type.
     pub fn parameters(&self, entry: u32) -> Outcome<Parameters<'f>> {
         let entity = self.file.get(entry).ok_or_else(|| Fault::new(entry, "is no entity of the file"))?;
-        let values: Vec<Value<'f>> = entity.values().collect();
+        let values = match self.long.get(&entry) {
+            Some(values) => Cow::Borrowed(values.as_slice()),
+            None => Cow::Owned(values_of(&entity)),
+        };
         Ok(Parameters { directory: entity.directory, values, at: 1 })
     }
 
@@ -106,7 +138,7 @@ impl<'f> Reader<'f> {
 /// An entity's parameters, one after the other.
 pub(crate) struct Parameters<'f> {
     pub directory: &'f DirectoryEntry,
-    values: Vec<Value<'f>>,
+    values: Cow<'f, [Value<'f>]>,
     at: usize,
 }
 

@@ -110,15 +110,16 @@ impl<'f> ShapeBuilder<'f> {
         for (k, (piece, turned)) in bound.pieces.into_iter().enumerate() {
             let (from, to) = (vertices[k], vertices[(k + 1) % vertices.len()]);
             let (start, end) = if turned { (to, from) } else { (from, to) };
+            let pcurve = piece.image.clone();
             let edge = self.edge(entity, piece, start, end);
-            coedges.push(Coedge { edge, reversed: turned, pcurve: None });
+            coedges.push(Coedge { edge, reversed: turned, pcurve });
         }
         Loop { entity, coedges, vertex: None, outer: bound.outer }
     }
 
     /// Adds an edge that runs with its curve.
     pub fn edge(&mut self, entity: EntityRef, piece: Piece, start: VertexId, end: VertexId) -> u32 {
-        let Piece { curve, range } = piece;
+        let Piece { curve, range, .. } = piece;
         self.part.edges.push(Edge { entity, start, end, curve: Arc::new(curve), range, same_sense: true });
         (self.part.edges.len() - 1) as u32
     }
@@ -134,7 +135,7 @@ impl<'f> ShapeBuilder<'f> {
         match self.reader.curve(entry) {
             Ok(pieces) => {
                 self.curve_groups.extend(pieces.iter().map(|_| self.group));
-                self.part.curves.extend(pieces.into_iter().map(|Piece { curve, range }| FreeCurve {
+                self.part.curves.extend(pieces.into_iter().map(|Piece { curve, range, .. }| FreeCurve {
                     entity: EntityRef::Iges(entry),
                     curve: Arc::new(curve),
                     range,

@@ -176,7 +176,7 @@ impl ShapeBuilder<'_> {
         let start = self.listed_vertex(from, from_index, shared)?;
         let end = self.listed_vertex(to, to_index, shared)?;
         let pieces = self.reader.curve(curve)?;
-        let Piece { curve, range } = joined(pieces, &self.reader.parameters(curve)?)?;
+        let Piece { curve, range, .. } = joined(pieces, &self.reader.parameters(curve)?)?;
         // The curve may run the other way than the edge.
         let point = |id: VertexId| self.part.vertices[id as usize].point;
         let [first, last] = [curve.point(range.start), curve.point(range.end)];

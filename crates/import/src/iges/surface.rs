@@ -135,7 +135,7 @@ impl Reader<'_> {
         let (start, end) = (parameters.real()?, parameters.real()?);
         let axis = self.unscaled_curve(axis, parameters)?;
         let [origin, to] = axis.ends();
-        let Piece { curve, range } = self.unscaled_curve(generatrix, parameters)?;
+        let Piece { curve, range, .. } = self.unscaled_curve(generatrix, parameters)?;
         let axis = (to - origin).try_normalize();
         let axis = axis.ok_or_else(|| parameters.fault("is revolved about an axis of no length"))?;
         let mut parameters = DAffine3::from_mat3(DMat3::from_cols(DVec3::Y, DVec3::X, DVec3::Z));
@@ -167,7 +167,7 @@ impl Reader<'_> {
     fn tabulated_cylinder(&self, parameters: &mut Parameters<'_>) -> Outcome<Ground> {
         let directrix = parameters.pointer()?;
         let to = parameters.point()?;
-        let Piece { curve, range } = self.unscaled_curve(directrix, parameters)?;
+        let Piece { curve, range, .. } = self.unscaled_curve(directrix, parameters)?;
         let direction = to - curve.point(range.start);
         if !(direction.length() > 0.0) {
             return Err(parameters.fault("is extruded by nothing"));
