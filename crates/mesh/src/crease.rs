@@ -11,6 +11,9 @@ pub(crate) struct Creases {
     lines: [Vec<f64>; 2],
     /// Parameters within this of a line are on it, per direction.
     near: [f64; 2],
+    /// What is left of the domain beside creases along its border.
+    low: DVec2,
+    high: DVec2,
 }
 
 /// A jump of the normal by less than this is none.
@@ -21,12 +24,28 @@ const MAX_BREAKS: usize = 128;
 impl Creases {
     /// Finds the creases of `surface` over `low`..`high`.
     pub fn new(surface: &Surface, low: DVec2, high: DVec2) -> Self {
-        let mut out = Self { near: ((high - low) * 1e-8).into(), ..Self::default() };
+        let (below, above) = (DVec2::NEG_INFINITY, DVec2::INFINITY);
+        let near: [f64; 2] = ((high - low) * 1e-8).into();
+        let mut out = Self { near, low: below, high: above, ..Self::default() };
         for (k, direction) in [Direction::U, Direction::V].into_iter().enumerate() {
-            let candidates = candidates(surface, direction, low, high);
-            out.lines[k] = candidates.into_iter().filter(|&at| jumps(surface, k, at, low, high)).collect();
+            let (inner, border) = candidates(surface, direction, low, high);
+            let jumps = |at: &f64| jumps(surface, k, *at, low, high);
+            out.lines[k] = inner.into_iter().filter(jumps).collect();
+            for at in border.into_iter().filter(jumps) {
+                if at - low[k] < high[k] - at {
+                    out.low[k] = at.max(low[k]) + near[k];
+                } else {
+                    out.high[k] = at.min(high[k]) - near[k];
+                }
+            }
         }
         out
+    }
+
+    /// A point beside a crease that runs along the domain's border (to rounding, on either side of it), on the side of
+    /// the domain; any other point as it is.
+    pub fn within(&self, uv: DVec2) -> DVec2 {
+        uv.max(self.low).min(self.high)
     }
 
     /// Whether a point lies on a crease.
@@ -64,20 +83,29 @@ impl Creases {
     }
 }
 
-fn candidates(surface: &Surface, direction: Direction, low: DVec2, high: DVec2) -> Vec<f64> {
+/// Where creases may run: inside the domain, and along its border.
+fn candidates(surface: &Surface, direction: Direction, low: DVec2, high: DVec2) -> (Vec<f64>, Vec<f64>) {
     let k = usize::from(direction == Direction::V);
     let range = Interval::new(low.to_array()[k], high.to_array()[k]);
     let breaks = match surface {
-        Surface::Nurbs(nurbs) => full_knots(nurbs.knots()[k], nurbs.degrees()[k]),
+        Surface::Nurbs(nurbs) => {
+            let knots = full_knots(nurbs.knots()[k], nurbs.degrees()[k]);
+            let turns = match nurbs.periods()[k] {
+                Some(period) => vec![-period, 0.0, period],
+                None => vec![0.0],
+            };
+            turns.iter().flat_map(|turn| knots.iter().map(move |knot| knot + turn)).collect()
+        }
         Surface::Extrusion { .. } | Surface::Revolution { .. } | Surface::Offset { .. } => {
             surface.breakpoints(direction, range)
         }
         _ => Vec::new(),
     };
     let margin = range.length() * 1e-9;
-    let inner = breaks.into_iter().filter(|&at| at > range.start + margin && at < range.end - margin);
-    let inner: Vec<f64> = inner.collect();
-    if inner.len() > MAX_BREAKS { Vec::new() } else { inner }
+    let near = breaks.into_iter().filter(|&at| at > range.start - margin && at < range.end + margin);
+    let (inner, border): (Vec<f64>, Vec<f64>) =
+        near.partition(|&at| at > range.start + margin && at < range.end - margin);
+    (if inner.len() > MAX_BREAKS { Vec::new() } else { inner }, border)
 }
 
 /// Distinct knots whose multiplicity is at least the degree.
@@ -118,5 +146,23 @@ mod tests {
         assert!(beside.x > 1.0 && beside.x < 1.001 && beside.y == 0.3);
         assert_eq!(creases.beside(DVec2::new(0.5, 0.3), DVec2::ONE), None);
         assert_eq!(creases.crossing(DVec2::new(0.5, 0.0), DVec2::new(2.0, 0.0)), Some((1.0 / 3.0, DVec2::X)));
+    }
+
+    #[test]
+    fn a_border_along_a_crease_is_on_the_side_of_the_domain() {
+        let points = vec![DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0)];
+        let profile =
+            NurbsCurve::new(1, points, Vec::new(), vec![0.0, 0.0, 1.0, 2.0, 2.0]).expect("a bent line");
+        let surface = Surface::Extrusion { profile: Arc::new(Curve::Nurbs(profile)), direction: DVec3::Z };
+        // The domain starts a rounding error before the corner.
+        let border = DVec2::new(1.0 - 1e-13, 0.5);
+        let creases = Creases::new(&surface, DVec2::new(border.x, 0.0), DVec2::new(2.0, 1.0));
+        assert!(!creases.hold(border));
+        let normal = |uv| surface.normal(uv).expect("regular");
+        assert!(normal(creases.within(border)).distance(normal(DVec2::new(1.5, 0.5))) < 1e-12);
+        let creases = Creases::new(&surface, DVec2::ZERO, DVec2::new(1.0 + 1e-13, 1.0));
+        let border = DVec2::new(1.0 + 1e-13, 0.5);
+        assert!(normal(creases.within(border)).distance(normal(DVec2::new(0.5, 0.5))) < 1e-12);
+        assert_eq!(creases.within(DVec2::new(0.3, 0.3)), DVec2::new(0.3, 0.3));
     }
 }

@@ -150,7 +150,7 @@ impl<'a> Filling<'a> {
     }
 
     fn normal(&self, uv: DVec2) -> DVec3 {
-        self.surface.normal(uv).unwrap_or(DVec3::ZERO)
+        self.surface.normal(self.creases.within(uv)).unwrap_or(DVec3::ZERO)
     }
 
     /// Whether the triangles end exactly at the domain's boundary.
