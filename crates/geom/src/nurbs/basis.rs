@@ -35,6 +35,8 @@ macro_rules! by_degree {
             (1, true) => arm!([f64; 2], 1),
             (2, true) => arm!([f64; 3], 2),
             (3, true) => arm!([f64; 4], 3),
+            (0..=3, _) => arm!([f64; 4], 0),
+            (0..=5, _) => arm!([f64; 6], 0),
             (0..=9, _) => arm!([f64; 10], 0),
             (10..=31, _) => arm!([f64; 32], 0),
             _ => arm!(Vec<f64>, 0),
@@ -70,6 +72,26 @@ impl<R: Row> Basis<R> {
     /// functions of one and two degrees less (eq. 2.7).
     #[inline]
     pub fn new<const ORDER: usize, const FIXED: usize>(
+        knots: &[f64],
+        degree: usize,
+        count: usize,
+        t: f64,
+    ) -> Self {
+        // Directions of different degrees are unrolled one by one.
+        match if FIXED > 0 { FIXED } else { degree } {
+            1 => Self::unrolled::<ORDER, 1>(knots, degree, count, t),
+            2 => Self::unrolled::<ORDER, 2>(knots, degree, count, t),
+            3 => Self::unrolled::<ORDER, 3>(knots, degree, count, t),
+            4 => Self::unrolled::<ORDER, 4>(knots, degree, count, t),
+            5 => Self::unrolled::<ORDER, 5>(knots, degree, count, t),
+            6 => Self::unrolled::<ORDER, 6>(knots, degree, count, t),
+            7 => Self::unrolled::<ORDER, 7>(knots, degree, count, t),
+            _ => Self::unrolled::<ORDER, 0>(knots, degree, count, t),
+        }
+    }
+
+    #[inline]
+    fn unrolled<const ORDER: usize, const FIXED: usize>(
         knots: &[f64],
         degree: usize,
         count: usize,
