@@ -19,6 +19,7 @@ from catalogue import FIXTURES, HAND, Fixture, HandWritten  # noqa: E402
 
 from broken.expected import write_all as write_broken  # noqa: E402
 from exact import bounding_box, faces  # noqa: E402
+from exports import make_exports  # noqa: E402
 from freecad_run import make_all as make_freecad  # noqa: E402
 from iges_in import seen_in_iges  # noqa: E402
 from iges_out import WRITTEN, Written, make_written  # noqa: E402
@@ -172,6 +173,8 @@ def main(words: list[str]) -> int:
     if not words or "broken" in words:
         write_broken(FIXTURES_FOLDER / "broken")
     good = apart(make_aloud, chosen)
+    if not words or "exports" in words:
+        make_exports(FIXTURES_FOLDER)
     write_tables(FIXTURES_FOLDER)
     failed = [fixture.name for fixture, well in zip(chosen, good) if not well]
     print(f"{len(chosen)} fixtures, {len(failed)} to look at:", *failed)

@@ -1,0 +1,29 @@
+//! How far two shapes are apart: distances from point to surface both ways, area, volume, moments, topology, and a
+//! verdict. A CAD file counts as its exact surfaces, a mesh as its triangles.
+//!
+//! [`read_mesh`] reads what other programs export, [`choose`] finds out about its unit and axes, [`Shape`] is a side,
+//! [`compare()`] measures, [`judge`] decides.
+
+mod bvh;
+mod comparison;
+mod convention;
+mod distance;
+mod integrals;
+mod read;
+mod shape;
+mod topology;
+mod triangles;
+mod verdict;
+
+pub use bvh::{Bvh, Hit};
+pub use comparison::{
+    CompareOptions, Comparison, FaceDistances, PartDistances, Side, Stopped, compare, places_of,
+};
+pub use convention::{Choice, Convention, Up, choose};
+pub use distance::{Distances, Sample, Target};
+pub use integrals::{Figures, figures};
+pub use read::{MeshError, MeshFile, is_mesh_extension, read_mesh};
+pub use shape::{Patch, Placed, Shape};
+pub use topology::{Topology, topology};
+pub use triangles::{Piece, Triangles};
+pub use verdict::{Gate, Gates, Judgement, Reach, Verdict, judge};

@@ -1,0 +1,41 @@
+//! How large a part is.
+
+use rayon::prelude::*;
+use trimloop_brep::{Edge, FaceGeometry, Part};
+use trimloop_geom::{Aabb, Curve, Interval, Surface};
+
+/// The diagonal of the part's box, from its edges (and the surfaces of faces that have none).
+pub(crate) fn size_mm(part: &Part) -> f64 {
+    let mut bounds =
+        Aabb::from_points(part.vertices.iter().map(|v| v.point).chain(part.facet_points.iter().copied()));
+    // The box of a curve on a spline surface takes work: most of them lie well inside of what the others span.
+    let (on_surface, others): (Vec<&Edge>, Vec<&Edge>) =
+        part.edges.iter().partition(|edge| matches!(*edge.curve, Curve::OnSurface { .. }));
+    let of_edge = |edge: &&Edge| edge.curve.bounds(edge.range);
+    bounds = bounds.union(others.par_iter().map(of_edge).reduce(|| Aabb::EMPTY, Aabb::union));
+    let known = bounds;
+    let is_inside = |edge: &Edge| net_bounds(edge).is_some_and(|bounds| known.contains(bounds));
+    let beyond = on_surface.par_iter().filter(|edge| !is_inside(edge)).map(of_edge);
+    bounds = bounds.union(beyond.reduce(|| Aabb::EMPTY, Aabb::union));
+    for face in part.faces.iter().filter(|f| f.loops.iter().all(|l| l.coedges.is_empty())) {
+        if let FaceGeometry::Surface(surface) = &face.geometry {
+            let domain = surface.domain();
+            if domain.iter().all(|d| d.is_finite()) {
+                bounds = bounds.union(surface.bounds(domain));
+            }
+        }
+    }
+    let of_curves = part.curves.par_iter().map(|curve| curve.curve.bounds(curve.range));
+    bounds = bounds.union(of_curves.reduce(|| Aabb::EMPTY, Aabb::union));
+    bounds = bounds.union(Aabb::from_points(part.points.iter().map(|point| point.point)));
+    let size = bounds.diagonal();
+    if size.is_finite() && size > 0.0 { size } else { 1.0 }
+}
+
+/// A box around an edge that runs over a spline surface, found at once.
+fn net_bounds(edge: &Edge) -> Option<Aabb> {
+    let Curve::OnSurface { surface, pcurve } = &*edge.curve else { return None };
+    let Surface::Nurbs(nurbs) = &**surface else { return None };
+    let Aabb { min, max } = pcurve.bounds(edge.range);
+    Some(nurbs.net_bounds([Interval::new(min.x, max.x), Interval::new(min.y, max.y)]))
+}
