@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use trimloop_compare::{Gates, Reach};
 use trimloop_gltf::{GltfOptions, UpAxis};
 use trimloop_mesh::{LinearDeflection, MeshOptions};
 
@@ -31,6 +32,9 @@ pub enum Command {
     /// Show what is in STEP and IGES files: assembly tree, units, bodies, surfaces, colours
     #[command(after_help = INSPECT_EXAMPLES)]
     Inspect(InspectArguments),
+    /// Compare two shapes, CAD files or meshes: distances both ways, area, volume, topology, and a verdict
+    #[command(after_help = COMPARE_EXAMPLES)]
+    Compare(CompareArguments),
     /// Print a completion script for a shell
     Completions {
         /// The shell to complete for
@@ -58,6 +62,28 @@ Exit codes:
   2  nothing usable: bad usage, unreadable file, unwritable output; nothing is left behind
   130  stopped (Ctrl-C)
 With several inputs, the worst of them.";
+
+const COMPARE_EXAMPLES: &str = "\
+Examples:
+  trimloop compare bracket.step bracket.stl                     is the mesh what the model says?
+  trimloop compare new.step old.step --max-distance 0.05mm      has the model changed, and where?
+  trimloop compare part.step part.glb --html part.html          with pictures
+  trimloop compare part.step part.obj --unit in --up y          where the guess is wrong
+  trimloop compare a.stl b.stl --report - | jq .comparison.a_to_b
+
+CAD files (STEP, IGES) count as their exact surfaces; meshes are STL, OBJ, PLY, glTF and 3MF. Where both meet, the
+distance of the mesh's corners is to the exact surface, and area and volume are integrals over it.
+
+Verdicts:
+  same               within the gates
+  different          outside
+  reference suspect  outside, but all that speaks for it is that the mesh B leaves the exact surface of A or misses faces
+
+Exit codes:
+  0  same
+  1  different, or reference suspect
+  2  nothing usable: bad usage, a file that cannot be read
+  130  stopped (Ctrl-C)";
 
 const INSPECT_EXAMPLES: &str = "\
 Examples:
@@ -189,6 +215,126 @@ impl ConvertArguments {
     }
 }
 
+/// `trimloop compare`.
+#[derive(Args, Debug)]
+pub struct CompareArguments {
+    /// The one shape: a CAD file or a mesh
+    #[arg(value_name = "A")]
+    pub a: PathBuf,
+
+    /// The other, the reference where there is one
+    #[arg(value_name = "B")]
+    pub b: PathBuf,
+
+    /// Places spread evenly over each side; the corners of the triangles come on top
+    #[arg(long, value_name = "N", default_value_t = 200_000, value_parser = clap::value_parser!(u32).range(1..=50_000_000))]
+    pub samples: u32,
+
+    /// Number of threads, 0 for one per core
+    #[arg(short, long, value_name = "N", default_value_t = 0)]
+    pub jobs: usize,
+
+    /// Print the verdict only
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+
+    /// Print every face that differs, and what the files have to say
+    #[arg(short, long)]
+    pub verbose: bool,
+
+    /// What is allowed
+    #[command(flatten)]
+    pub gates: GateArguments,
+
+    /// Unit of meshes: mm, m, in, cm, ft, um, auto; A's and B's with a comma between them
+    #[arg(long, value_name = "UNIT", default_value = "auto", value_delimiter = ',', num_args = 1, help_heading = "Files", value_parser = quantity::mesh_unit)]
+    pub unit: Vec<MeshUnit>,
+
+    /// Axis that points up in meshes: y, z, auto; A's and B's with a comma between them
+    #[arg(
+        long,
+        value_name = "AXIS",
+        default_value = "auto",
+        value_delimiter = ',',
+        num_args = 1,
+        help_heading = "Files"
+    )]
+    pub up: Vec<MeshUp>,
+
+    /// Compare what the file hides as well
+    #[arg(long, help_heading = "Files")]
+    pub hidden: bool,
+
+    /// Write everything that was found as JSON: a file, or - for standard output
+    #[arg(long, value_name = "PATH", help_heading = "Report")]
+    pub report: Option<PathBuf>,
+
+    /// Write one HTML file with figures and pictures
+    #[arg(long, value_name = "PATH", help_heading = "Report")]
+    pub html: Option<PathBuf>,
+}
+
+/// What is allowed to differ.
+#[derive(Args, Clone, Debug)]
+pub struct GateArguments {
+    /// Largest distance, both ways: mm, um, cm, m, in, or % of the diagonal of A
+    #[arg(long, value_name = "LENGTH", default_value = "0.5%", help_heading = "Gates", value_parser = quantity::linear_deflection)]
+    pub max_distance: LinearDeflection,
+
+    /// Largest difference of the areas, % of A's
+    #[arg(long, value_name = "SHARE", default_value = "1%", help_heading = "Gates", value_parser = quantity::share)]
+    pub max_area: f64,
+
+    /// Largest difference of the volumes, % of A's; where both sides close
+    #[arg(long, value_name = "SHARE", default_value = "1%", help_heading = "Gates", value_parser = quantity::share)]
+    pub max_volume: f64,
+
+    /// Both sides must close
+    #[arg(long, help_heading = "Gates")]
+    pub watertight: bool,
+}
+
+impl GateArguments {
+    /// As the library has them.
+    pub fn gates(&self) -> Gates {
+        Gates {
+            max_distance: match self.max_distance {
+                LinearDeflection::Absolute(mm) => Reach::Mm(mm),
+                LinearDeflection::Relative(share) => Reach::Share(share),
+            },
+            max_area: self.max_area,
+            max_volume: self.max_volume,
+            watertight: self.watertight,
+        }
+    }
+}
+
+/// Millimetres per unit of a mesh, where that is not to be guessed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshUnit(pub Option<f64>);
+
+/// The axis that points up in a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MeshUp {
+    /// As the format has it, or as the boxes agree.
+    Auto,
+    /// +Y.
+    Y,
+    /// +Z.
+    Z,
+}
+
+impl MeshUp {
+    /// The axis, where that is not to be guessed.
+    pub fn axis(self) -> Option<trimloop_compare::Up> {
+        match self {
+            Self::Auto => None,
+            Self::Y => Some(trimloop_compare::Up::Y),
+            Self::Z => Some(trimloop_compare::Up::Z),
+        }
+    }
+}
+
 /// `trimloop inspect`.
 #[derive(Args, Debug)]
 pub struct InspectArguments {
@@ -224,6 +370,18 @@ mod tests {
     #[test]
     fn defaults_are_those_of_the_libraries() {
         assert_eq!(convert("a.step").mesh_options(), MeshOptions::default());
+    }
+
+    #[test]
+    fn gates_are_those_of_the_library() {
+        let line = ["trimloop", "compare", "a.step", "b.stl", "--unit", "mm,in", "--up", "auto,y"];
+        let Command::Compare(arguments) = Arguments::try_parse_from(line).expect("valid arguments").command
+        else {
+            panic!("not a comparison");
+        };
+        assert_eq!(arguments.gates.gates(), trimloop_compare::Gates::default());
+        assert_eq!(arguments.unit, [super::MeshUnit(Some(1.0)), super::MeshUnit(Some(25.4))]);
+        assert_eq!(arguments.up, [super::MeshUp::Auto, super::MeshUp::Y]);
     }
 
     #[test]

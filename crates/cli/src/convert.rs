@@ -155,7 +155,7 @@ impl Clock {
 }
 
 /// Starts the workers; their stacks are as large as the main thread's usually is.
-fn start_threads(jobs: usize) -> anyhow::Result<()> {
+pub fn start_threads(jobs: usize) -> anyhow::Result<()> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(jobs)
         .stack_size(8 << 20)

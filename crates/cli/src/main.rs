@@ -1,6 +1,8 @@
-//! The `trimloop` command: CAD files (STEP and IGES) to glTF, and what is in them.
+//! The `trimloop` command: CAD files (STEP and IGES) to glTF, what is in them, and how they compare with others.
 
 mod arguments;
+mod compare;
+mod compare_text;
 mod contained;
 mod convert;
 mod draft;
@@ -15,6 +17,7 @@ mod progress;
 mod quantity;
 mod report;
 mod report_sink;
+mod side;
 mod summary;
 mod tally;
 
@@ -28,6 +31,7 @@ use crate::outcome::Outcome;
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Convert(arguments) => convert::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Completions { shell } => manual::completions(shell),
         Command::Man { folder } => manual::pages(folder.as_deref()),

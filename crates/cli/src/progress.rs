@@ -13,6 +13,19 @@ pub struct Progress {
 }
 
 impl Progress {
+    /// A bar for `count` of whatever `what` names; 0 where the number is not known yet.
+    pub fn counting(count: usize, what: &'static str, quiet: bool) -> Self {
+        let seen = !quiet && std::io::stderr().is_terminal();
+        Self { bar: seen.then(|| bar_of(count as u64, what)) }
+    }
+
+    /// So many more are done.
+    pub fn add(&self, count: usize) {
+        if let Some(bar) = &self.bar {
+            bar.inc(count as u64);
+        }
+    }
+
     /// A bar for `faces` faces; none where nobody would see it.
     pub fn new(faces: usize, quiet: bool) -> Self {
         let seen = !quiet && std::io::stderr().is_terminal();
@@ -21,8 +34,19 @@ impl Progress {
 }
 
 fn bar(faces: u64) -> ProgressBar {
-    let bar = ProgressBar::new(faces);
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} faces, {eta} left") {
+    bar_of(faces, "faces")
+}
+
+fn bar_of(count: u64, what: &'static str) -> ProgressBar {
+    if count == 0 {
+        let bar = ProgressBar::new_spinner().with_message(what);
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {pos} {msg}") {
+            bar.set_style(style);
+        }
+        return bar;
+    }
+    let bar = ProgressBar::new(count).with_message(what);
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} {msg}, {eta} left") {
         bar.set_style(style);
     }
     bar

@@ -2,6 +2,8 @@
 
 use trimloop_mesh::LinearDeflection;
 
+use crate::arguments::MeshUnit;
+
 const LENGTH_UNITS_MM: [(&str, f64); 8] = [
     ("mm", 1.0),
     ("um", 1e-3),
@@ -39,6 +41,25 @@ pub fn angular_deflection(text: &str) -> Result<f64, String> {
         return Err("an angle of at most 180deg is wanted".into());
     }
     Ok(angle_rad)
+}
+
+/// `1%` or `0.01`, as a share.
+pub fn share(text: &str) -> Result<f64, String> {
+    match split(text)? {
+        (number, "%") => Ok(number / 100.0),
+        (number, "") => Ok(number),
+        _ => Err("a share is a number or has a %".into()),
+    }
+}
+
+/// The unit of a mesh by its name, or `auto`.
+pub fn mesh_unit(text: &str) -> Result<MeshUnit, String> {
+    let text = text.trim();
+    if text.eq_ignore_ascii_case("auto") {
+        return Ok(MeshUnit(None));
+    }
+    let unit = find(&LENGTH_UNITS_MM[..7], text).or_else(|| text.eq_ignore_ascii_case("ft").then_some(304.8));
+    unit.map(|mm| MeshUnit(Some(mm))).ok_or_else(|| "the unit is one of mm, m, in, cm, ft, um, auto".into())
 }
 
 fn find(units: &[(&str, f64)], name: &str) -> Option<f64> {
