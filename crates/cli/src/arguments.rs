@@ -35,6 +35,9 @@ pub enum Command {
     /// Compare two shapes, CAD files or meshes: distances both ways, area, volume, topology, and a verdict
     #[command(after_help = COMPARE_EXAMPLES)]
     Compare(CompareArguments),
+    /// Run a suite of comparisons: a folder, or a TOML file of cases
+    #[command(after_help = REGRESS_EXAMPLES)]
+    Regress(RegressArguments),
     /// Print a completion script for a shell
     Completions {
         /// The shell to complete for
@@ -83,6 +86,24 @@ Exit codes:
   0  same
   1  different, or reference suspect
   2  nothing usable: bad usage, a file that cannot be read
+  130  stopped (Ctrl-C)";
+
+const REGRESS_EXAMPLES: &str = "\
+Examples:
+  trimloop regress models/                        every CAD file with a mesh of the same name beside it
+  trimloop regress suite.toml -o report/          the cases that the file lists
+  trimloop regress suite.toml --tag freecad
+  trimloop regress suite.toml --bless             after looking at report.html: this is how it should be
+
+Writes results.json, junit.xml and report.html (one file, pictures inside) into the output folder.
+
+A case passes where it is within its gates, or differs as its `known` entry or the baseline says. It fails where it
+differs otherwise, where its verdict is not the baseline's, and where a known difference is there no more.
+
+Exit codes:
+  0  every case passed
+  1  a case failed
+  2  nothing usable: bad usage, a suite that cannot be read
   130  stopped (Ctrl-C)";
 
 const INSPECT_EXAMPLES: &str = "\
@@ -272,6 +293,58 @@ pub struct CompareArguments {
     /// Write one HTML file with figures and pictures
     #[arg(long, value_name = "PATH", help_heading = "Report")]
     pub html: Option<PathBuf>,
+}
+
+/// `trimloop regress`.
+#[derive(Args, Debug)]
+pub struct RegressArguments {
+    /// The suite: a folder (its suite.toml, or its pairs of files), or a TOML file
+    #[arg(value_name = "SUITE")]
+    pub suite: PathBuf,
+
+    /// Folder for results.json, junit.xml and report.html
+    #[arg(short, long, value_name = "FOLDER", default_value = "trimloop-report")]
+    pub output: PathBuf,
+
+    /// Only cases whose name contains this; may be given several times
+    #[arg(long, value_name = "WORD")]
+    pub only: Vec<String>,
+
+    /// Only cases with this tag; may be given several times
+    #[arg(long, value_name = "TAG")]
+    pub tag: Vec<String>,
+
+    /// Take what comes as good: rewrite the baseline
+    #[arg(long)]
+    pub bless: bool,
+
+    /// Leave out the pictures
+    #[arg(long)]
+    pub no_pictures: bool,
+
+    /// Places spread evenly over each side; the corners of the triangles come on top
+    #[arg(long, value_name = "N", default_value_t = 50_000, value_parser = clap::value_parser!(u32).range(1..=50_000_000))]
+    pub samples: u32,
+
+    /// Number of threads, 0 for one per core
+    #[arg(short, long, value_name = "N", default_value_t = 0)]
+    pub jobs: usize,
+
+    /// Print what failed and the sum only
+    #[arg(short, long)]
+    pub quiet: bool,
+
+    /// What is allowed in cases that say nothing else
+    #[command(flatten)]
+    pub gates: GateArguments,
+}
+
+impl RegressArguments {
+    /// Whether a case is to be run.
+    pub fn chooses(&self, case: &trimloop_compare::Case) -> bool {
+        let named = self.only.is_empty() || self.only.iter().any(|word| case.name.contains(word));
+        named && (self.tag.is_empty() || case.tags.iter().any(|tag| self.tag.contains(tag)))
+    }
 }
 
 /// What is allowed to differ.

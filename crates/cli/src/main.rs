@@ -15,6 +15,8 @@ mod outcome;
 mod plan;
 mod progress;
 mod quantity;
+mod regress;
+mod regress_text;
 mod report;
 mod report_sink;
 mod side;
@@ -33,6 +35,7 @@ fn main() -> ExitCode {
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Regress(arguments) => regress::run(&arguments),
         Command::Completions { shell } => manual::completions(shell),
         Command::Man { folder } => manual::pages(folder.as_deref()),
     };

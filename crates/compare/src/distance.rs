@@ -212,9 +212,11 @@ pub fn distances<'a>(samples: impl Iterator<Item = &'a Sample> + Clone) -> Dista
     let mut weighted: Vec<(f64, f64)> = Vec::new();
     for sample in samples {
         out.samples += 1;
-        if sample.weight > 0.0 {
-            weighted.push((sample.distance, sample.weight));
-        }
+        weighted.push((sample.distance, sample.weight));
+    }
+    // Of corners alone, each counts the same.
+    if weighted.iter().all(|(_, weight)| *weight == 0.0) {
+        weighted.iter_mut().for_each(|(_, weight)| *weight = 1.0);
     }
     let total: f64 = weighted.iter().map(|(_, weight)| weight).sum();
     if total > 0.0 {
