@@ -59,6 +59,11 @@ impl Bvh {
 
     /// The nearest place that is nearer than `limit`.
     pub fn nearest(&self, point: DVec3, limit: f64) -> Option<Hit> {
+        self.nearest_of(point, limit, |_| true)
+    }
+
+    /// The nearest place that is nearer than `limit`, of those triangles that are `wanted`.
+    pub fn nearest_of(&self, point: DVec3, limit: f64, wanted: impl Fn(u32) -> bool) -> Option<Hit> {
         let mut best: Option<Hit> = None;
         let mut most2 = if limit.is_finite() { limit * limit } else { f64::INFINITY };
         let mut stack = [(0u32, 0.0f64); 96];
@@ -77,7 +82,8 @@ impl Bvh {
                 for k in node.first..node.first + node.count {
                     let (place, weights) = nearest_in_triangle(&self.corners[k as usize], point);
                     let away2 = place.distance_squared(point);
-                    if away2 < most2 || (best.is_none() && away2 <= most2) {
+                    let is_nearer = away2 < most2 || (best.is_none() && away2 <= most2);
+                    if is_nearer && wanted(self.order[k as usize]) {
                         most2 = away2;
                         let triangle = self.order[k as usize];
                         best = Some(Hit { triangle, point: place, weights, distance: 0.0 });

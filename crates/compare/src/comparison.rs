@@ -134,7 +134,8 @@ pub fn compare(
     let (shape, own, other) = if out.faces_of == "a" { (a, &on_a, &on_b) } else { (b, &on_b, &on_a) };
     out.faces = faces(shape, own, other, options.near_mm);
     out.parts = parts(shape, own);
-    if out.b_to_a.max_mm.max(out.a_to_b.max_mm) > options.near_mm {
+    // A coarse mesh of something symmetric is no mirror image: where that is all, its corners lie on the shape.
+    if out.b_corners_to_a.max_mm > options.near_mm {
         out.mirrored = mirror_plane(b, &targets.0, options.near_mm);
     }
     out.places = [on_a, on_b];

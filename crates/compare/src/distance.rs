@@ -62,6 +62,19 @@ impl<'s> Target<'s> {
         Self { shape, bvh: Bvh::new(&shape.triangles) }
     }
 
+    /// Whether the target faces the other way where it is nearest to a point: no triangle that faces about the same way
+    /// as `normal` is as near (solids that touch have both).
+    fn is_turned(&self, point: DVec3, normal: DVec3, hit: &Hit) -> bool {
+        let facing = |triangle: u32| {
+            self.shape.triangles.area_vector(triangle as usize).normalize_or_zero().dot(normal)
+        };
+        if facing(hit.triangle) >= -0.5 {
+            return false;
+        }
+        let reach = hit.distance + 2.0 * self.shape.deviation_mm + 1e-9 * (1.0 + point.length());
+        self.bvh.nearest_of(point, reach, |triangle| facing(triangle) > -0.5).is_none()
+    }
+
     /// The place nearest to `point`: of the exact surface where there is one. `limit` is a distance within which some
     /// place is known to be.
     ///
@@ -188,12 +201,8 @@ pub fn measure(
                     sample.nearest = nearest;
                     sample.distance = hit.distance;
                     sample.other_patch = target.shape.patch_of[hit.triangle as usize];
-                    let normals = [
-                        shape.triangles.area_vector(sample.triangle as usize),
-                        target.shape.triangles.area_vector(hit.triangle as usize),
-                    ];
-                    let [a, b] = normals.map(|normal| normal.normalize_or_zero());
-                    sample.turned = a.dot(b) < -0.5;
+                    let normal = shape.triangles.area_vector(sample.triangle as usize).normalize_or_zero();
+                    sample.turned = target.is_turned(sample.point, normal, &hit);
                     known = Some((sample.point, nearest));
                 }
             }
