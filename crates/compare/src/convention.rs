@@ -97,12 +97,13 @@ pub fn choose(
         return because(usual, &format!("{habit}, and the boxes agree"));
     }
     let units: Vec<f64> = unit_mm.map_or_else(|| UNITS_MM.to_vec(), |unit| vec![unit]);
-    let ups = up.map_or_else(|| vec![Up::Z, Up::Y], |up| vec![up]);
+    let other_up = if usual.up == Up::Y { Up::Z } else { Up::Y };
+    let ups = if up.is_some() { vec![usual.up] } else { vec![usual.up, other_up] };
+    // The usual axis first: the box of a ball or a cube fits any way up.
     let candidates =
-        units.iter().flat_map(|&unit_mm| ups.iter().map(move |&up| Convention { unit_mm, up, ..usual }));
-    let best = candidates.min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(usual);
-    if apart(&best) <= FITS {
-        return because(best, "guessed: the boxes agree so, and not as its format has it");
+        ups.iter().flat_map(|&up| units.iter().map(move |&unit_mm| Convention { unit_mm, up, ..usual }));
+    if let Some(fitting) = candidates.into_iter().find(|convention| apart(convention) <= FITS) {
+        return because(fitting, "guessed: the boxes agree so, and not as its format has it");
     }
     // The shapes differ. A unit that is wrong shows all the same: in the size.
     let ratio = |convention: &Convention| {
@@ -146,6 +147,16 @@ mod tests {
                 assert_eq!(choice.reason.starts_with("guessed"), truth != HABIT, "{}", choice.reason);
             }
         }
+    }
+
+    #[test]
+    fn a_cube_stays_the_usual_way_up() {
+        let cube = Aabb { min: DVec3::splat(-5.0), max: DVec3::splat(5.0) };
+        let gltf = Convention { unit_mm: 1000.0, up: Up::Y, stated: true };
+        assert_eq!(
+            choose(gltf, cube, Some(cube), None, None).convention,
+            Convention { unit_mm: 1.0, ..gltf }
+        );
     }
 
     #[test]
