@@ -1,6 +1,6 @@
 //! How far one shape is from another, point to surface.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -85,9 +85,7 @@ impl<'s> Target<'s> {
         let hit = self.bvh.nearest(point, limit).or_else(|| self.bvh.nearest(point, f64::INFINITY))?;
         let flat = Some((hit.point, hit));
         let Some(surface) = &self.shape.patch(hit.triangle).surface else { return flat };
-        let [a, b, c] = self.shape.uv[hit.triangle as usize];
-        let [wa, wb, wc] = hit.weights;
-        let (_, foot) = surface.foot(point, a * wa + b * wb + c * wc);
+        let (_, foot) = surface.foot(point, self.shape.uv_at(hit.triangle as usize, hit.weights));
         let slack = self.shape.deviation_mm;
         let distance = foot.distance(point);
         if distance > hit.distance + slack {
@@ -158,13 +156,10 @@ const MAX_CORNERS: usize = 4_000_000;
 const R2: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
 /// The place of a triangle with these weights of its corners, on the exact surface where there is one.
-fn place(shape: &Shape, triangle: u32, [wa, wb, wc]: [f64; 3]) -> DVec3 {
+fn place(shape: &Shape, triangle: u32, weights: [f64; 3]) -> DVec3 {
     match &shape.patch(triangle).surface {
-        Some(surface) => {
-            let [a, b, c]: [DVec2; 3] = shape.uv[triangle as usize];
-            surface.point(a * wa + b * wb + c * wc)
-        }
-        None => flat_place(&shape.triangles, triangle, [wa, wb, wc]),
+        Some(surface) => surface.point(shape.uv_at(triangle as usize, weights)),
+        None => flat_place(&shape.triangles, triangle, weights),
     }
 }
 

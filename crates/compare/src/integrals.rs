@@ -1,10 +1,10 @@
 //! Area, volume, centroid and moments: integrals over triangles, or over the exact surface that they stand for.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::shape::Shape;
+use crate::shape::{Placed, Shape};
 
 /// What a shape measures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -164,12 +164,47 @@ fn add_triangle(shape: &Shape, triangle: usize, origin: DVec3, exact: bool, sums
         }
         return;
     };
+    if let Some((pole, constant)) = shape.pole(triangle) {
+        return add_fan(surface, shape.uv[triangle], pole, constant, origin, sums);
+    }
     let uv_area = (ub - ua).perp_dot(uc - ua) * 0.5;
     // The sign of the area in parameters and that of the surface's normal belong together: only their product counts.
     let sign = if surface.outwards { uv_area.abs() } else { -uv_area.abs() };
     for ([wa, wb, wc], weight) in RULE {
         let d = surface.derivatives(ua * wa + ub * wb + uc * wc);
         sums.add(d.point - origin, d.du.cross(d.dv) * (sign * weight));
+    }
+}
+
+/// Points and weights of Gauss' rule of five points over 0..1.
+const GAUSS: [(f64, f64); 5] = [
+    (0.046_910_077_030_668, 0.118_463_442_528_094_54),
+    (0.230_765_344_947_158_45, 0.239_314_335_249_683_23),
+    (0.5, 0.284_444_444_444_444_44),
+    (0.769_234_655_052_841_5, 0.239_314_335_249_683_23),
+    (0.953_089_922_969_332, 0.118_463_442_528_094_54),
+];
+
+/// A triangle with a corner at a pole: in parameters, all between its opposite side and the pole.
+fn add_fan(surface: &Placed, uv: [DVec2; 3], pole: usize, constant: usize, origin: DVec3, sums: &mut Sums) {
+    let (a, b) = (uv[(pole + 1) % 3], uv[(pole + 2) % 3]);
+    let at = uv[pole][constant];
+    for (s, ws) in GAUSS {
+        let base = a.lerp(b, s);
+        let mut top = base;
+        top[constant] = at;
+        for (t, wt) in GAUSS {
+            // Along the side and towards the pole.
+            let along = {
+                let mut along = b - a;
+                along[constant] *= 1.0 - t;
+                along
+            };
+            let area = along.perp_dot(top - base).abs();
+            let d = surface.derivatives(base.lerp(top, t));
+            let sign = if surface.outwards { 1.0 } else { -1.0 };
+            sums.add(d.point - origin, d.du.cross(d.dv) * (sign * area * ws * wt));
+        }
     }
 }
 

@@ -54,6 +54,9 @@ pub struct Placed {
     pub local: DAffine3,
     /// Whether the surface's normal points outwards.
     pub outwards: bool,
+    /// Where a whole side of its parameters is a single point: which parameter is constant there (0 for u), and the
+    /// point in the model's coordinates.
+    pub poles: Vec<(usize, DVec3)>,
 }
 
 impl Placed {
@@ -165,6 +168,8 @@ impl Shape {
                 self.uv.push(corners.map(|c| c.uv));
                 self.patch_of.push(patch);
             }
+            let poles = surface.iter().flat_map(|surface| surface.singularities());
+            let poles = poles.map(|s| (s.constant as usize, world.transform_point3(s.point))).collect();
             let outwards = surface.as_ref().is_none_or(|surface| faces_outwards(surface, face_mesh));
             self.patches.push(Patch {
                 name: face.entity.to_string(),
@@ -176,9 +181,39 @@ impl Shape {
                     world: *world,
                     local: world.inverse(),
                     outwards: outwards != mirrored,
+                    poles,
                 }),
             });
         }
+    }
+
+    /// The corner of a triangle that is a pole of its surface, and which parameter is constant there: the other one may
+    /// be anything, so that the triangle stands for all of the parameters between its other two corners and the pole.
+    pub fn pole(&self, triangle: usize) -> Option<(usize, usize)> {
+        let surface = self.patch(triangle as u32).surface.as_ref()?;
+        if surface.poles.is_empty() {
+            return None;
+        }
+        let corners = self.triangles.corners(triangle);
+        let reach = 1e-9 * (1.0 + corners[0].abs().max_element());
+        (0..3).find_map(|k| {
+            let pole = surface.poles.iter().find(|(_, point)| point.distance(corners[k]) <= reach)?;
+            Some((k, pole.0))
+        })
+    }
+
+    /// The parameters of a place on a triangle, by its weights of the corners.
+    pub fn uv_at(&self, triangle: usize, weights: [f64; 3]) -> DVec2 {
+        let mut uv = self.uv[triangle];
+        if let Some((k, constant)) = self.pole(triangle) {
+            // Beside the pole the free parameter is that of the place's image on the opposite side.
+            let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+            let sum = weights[a] + weights[b];
+            let free = 1 - constant;
+            let share = if sum > 0.0 { weights[b] / sum } else { 0.5 };
+            uv[k][free] = uv[a][free] + (uv[b][free] - uv[a][free]) * share;
+        }
+        uv[0] * weights[0] + uv[1] * weights[1] + uv[2] * weights[2]
     }
 
     /// What the patch of a triangle is.
