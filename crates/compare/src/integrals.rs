@@ -4,6 +4,7 @@ use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::rim::Rim;
 use crate::shape::{Placed, Shape};
 
 /// What a shape measures.
@@ -69,7 +70,11 @@ impl Sums {
 
     /// Adds a place with its vector of area (divergence theorem: volumes become integrals over the surface).
     fn add(&mut self, p: DVec3, vector: DVec3) {
-        let area = vector.length();
+        self.add_signed(p, vector, vector.length());
+    }
+
+    /// The same with an area that may count against the rest.
+    fn add_signed(&mut self, p: DVec3, vector: DVec3, area: f64) {
         self.area += area;
         self.area_first += p * area;
         self.area_second += outer(p, p) * area;
@@ -136,6 +141,11 @@ pub fn patch_areas(shape: &Shape) -> Vec<f64> {
             sums.area
         })
         .collect_into_vec(&mut areas);
+    for rim in &shape.rims {
+        let mut sums = Sums::ZERO;
+        add_rim(shape, rim, DVec3::ZERO, &mut sums);
+        areas[shape.patch_of[rim.triangle as usize] as usize] += sums.area;
+    }
     areas
 }
 
@@ -151,7 +161,17 @@ fn sums_of(shape: &Shape, origin: DVec3, exact: bool) -> Sums {
             sums
         })
         .collect();
-    portions.into_iter().fold(Sums::ZERO, Sums::merged)
+    let rims: Vec<Sums> = shape
+        .rims
+        .par_chunks(1024)
+        .filter(|_| exact)
+        .map(|rims| {
+            let mut sums = Sums::ZERO;
+            rims.iter().for_each(|rim| add_rim(shape, rim, origin, &mut sums));
+            sums
+        })
+        .collect();
+    portions.into_iter().chain(rims).fold(Sums::ZERO, Sums::merged)
 }
 
 fn add_triangle(shape: &Shape, triangle: usize, origin: DVec3, exact: bool, sums: &mut Sums) {
@@ -173,6 +193,33 @@ fn add_triangle(shape: &Shape, triangle: usize, origin: DVec3, exact: bool, sums
     for ([wa, wb, wc], weight) in RULE {
         let d = surface.derivatives(ua * wa + ub * wb + uc * wc);
         sums.add(d.point - origin, d.du.cross(d.dv) * (sign * weight));
+    }
+}
+
+/// The sliver between a chord and its edge: added where it lies beyond the triangle, taken off where it lies in it.
+fn add_rim(shape: &Shape, rim: &Rim, origin: DVec3, sums: &mut Sums) {
+    let triangle = rim.triangle as usize;
+    let Some(surface) = &shape.patch(rim.triangle).surface else { return };
+    let uv = shape.uv[triangle];
+    let side = rim.side as usize;
+    let (a, b) = (uv[side], uv[(side + 1) % 3]);
+    let mut inner = uv[(side + 2) % 3];
+    // The free parameter of a pole says nothing of the side that it lies on.
+    if let Some((k, constant)) = shape.pole(triangle)
+        && k == (side + 2) % 3
+    {
+        inner[1 - constant] = 0.5 * (a + b)[1 - constant];
+    }
+    let turn = (b - a).perp_dot(inner - a).signum();
+    let sign = if surface.outwards { 1.0 } else { -1.0 };
+    for (s, ws) in GAUSS {
+        let (off, slope) = rim.off_at(s);
+        for (r, wr) in GAUSS {
+            let jacobian = (b - a + slope * r).perp_dot(off) * -turn * ws * wr;
+            let d = surface.derivatives(a.lerp(b, s) + off * r);
+            let cross = d.du.cross(d.dv);
+            sums.add_signed(d.point - origin, cross * (sign * jacobian), cross.length() * jacobian);
+        }
     }
 }
 

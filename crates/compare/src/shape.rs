@@ -7,6 +7,7 @@ use trimloop_brep::{BodyKind, FaceGeometry, Model, Part};
 use trimloop_geom::{Derivatives, Surface};
 use trimloop_mesh::{FaceStatus, PartMesh};
 
+use crate::rim::{Chords, Rim};
 use crate::triangles::Triangles;
 
 /// A side of a comparison, millimetres.
@@ -20,6 +21,8 @@ pub struct Shape {
     pub patch_of: Vec<u32>,
     /// For each triangle of a CAD file its corners' parameters; empty for meshes.
     pub uv: Vec<[DVec2; 3]>,
+    /// What lies between the triangles and the exact edges.
+    pub rims: Vec<Rim>,
     /// Whether this is a CAD file.
     pub exact: bool,
     /// Whether everything in it claims to be solid.
@@ -145,6 +148,7 @@ impl Shape {
                 .for_each(|used| found[used.face as usize] = true);
             found
         };
+        let chords = Chords::new(part, mesh);
         for (k, (face, face_mesh)) in
             part.faces.iter().zip(&mesh.faces).enumerate().filter(|(_, (f, _))| !f.hidden)
         {
@@ -159,6 +163,10 @@ impl Shape {
                 _ => None,
             };
             self.deviation_mm = self.deviation_mm.max(face_mesh.max_deviation_mm * scale);
+            if let Some(surface) = &surface {
+                let first = self.triangles.triangles.len() as u32;
+                self.rims.extend(chords.rims(surface, face_mesh, mirrored, first));
+            }
             for t in &face_mesh.triangles {
                 let mut corners = t.map(|index| face_mesh.vertices[index as usize]);
                 if mirrored {
