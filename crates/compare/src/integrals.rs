@@ -202,13 +202,15 @@ fn add_rim(shape: &Shape, rim: &Rim, origin: DVec3, sums: &mut Sums) {
     let Some(surface) = &shape.patch(rim.triangle).surface else { return };
     let uv = shape.uv[triangle];
     let side = rim.side as usize;
-    let (a, b) = (uv[side], uv[(side + 1) % 3]);
-    let mut inner = uv[(side + 2) % 3];
+    let (mut a, mut b, mut inner) = (uv[side], uv[(side + 1) % 3], uv[(side + 2) % 3]);
     // The free parameter of a pole says nothing of the side that it lies on.
-    if let Some((k, constant)) = shape.pole(triangle)
-        && k == (side + 2) % 3
-    {
-        inner[1 - constant] = 0.5 * (a + b)[1 - constant];
+    if let Some((k, constant)) = shape.pole(triangle) {
+        let free = 1 - constant;
+        match (k + 3 - side) % 3 {
+            0 => a[free] = b[free],
+            1 => b[free] = a[free],
+            _ => inner[free] = 0.5 * (a + b)[free],
+        }
     }
     let turn = (b - a).perp_dot(inner - a).signum();
     let sign = if surface.outwards { 1.0 } else { -1.0 };

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use trimloop_brep::Part;
 use trimloop_geom::{Curve, Surface};
-use trimloop_mesh::{FaceMesh, PartMesh};
+use trimloop_mesh::{FaceMesh, FaceVertex, PartMesh};
 
 /// The sliver between a triangle's side and the exact edge that it is a chord of.
 #[derive(Clone, Copy, Debug)]
@@ -47,11 +47,14 @@ impl Rim {
 }
 
 /// The chords of a part's edges: by their points, the curve and the parameters at both.
-pub(crate) struct Chords<'p>(FxHashMap<(u32, u32), (&'p Arc<Curve>, f64, f64)>);
+pub(crate) struct Chords<'p> {
+    by_points: FxHashMap<(u32, u32), (&'p Arc<Curve>, f64, f64)>,
+    positions: &'p [DVec3],
+}
 
 impl<'p> Chords<'p> {
     /// All chords of a part.
-    pub fn new(part: &'p Part, mesh: &PartMesh) -> Self {
+    pub fn new(part: &'p Part, mesh: &'p PartMesh) -> Self {
         let mut chords = FxHashMap::default();
         for line in &mesh.edges {
             let edge = &part.edges[line.edge as usize];
@@ -77,11 +80,17 @@ impl<'p> Chords<'p> {
                 chords.insert((a.min(b), a.max(b)), (&edge.curve, entry.0, entry.1));
             }
         }
-        Self(chords)
+        Self { by_points: chords, positions: &mesh.positions }
     }
 
     /// The rims of a face, its triangles numbered from `first`; corners are those of the shape's triangles.
     pub fn rims(&self, surface: &Surface, mesh: &FaceMesh, mirrored: bool, first: u32) -> Vec<Rim> {
+        let poles = surface.singularities();
+        let pole_at = |vertex: &FaceVertex| {
+            let point = self.positions[vertex.position as usize];
+            let reach = 1e-9 * (1.0 + point.abs().max_element());
+            poles.iter().find(|pole| pole.point.distance(point) <= reach).map(|pole| pole.constant as usize)
+        };
         let mut out = Vec::new();
         for (index, t) in mesh.triangles.iter().enumerate() {
             let mut corners = t.map(|k| mesh.vertices[k as usize]);
@@ -89,11 +98,17 @@ impl<'p> Chords<'p> {
                 corners.swap(1, 2);
             }
             for side in 0..3 {
-                let (a, b) = (corners[side], corners[(side + 1) % 3]);
+                let (mut a, mut b) = (corners[side], corners[(side + 1) % 3]);
                 let key = (a.position.min(b.position), a.position.max(b.position));
-                let Some(&(curve, low, high)) = self.0.get(&key) else { continue };
+                let Some(&(curve, low, high)) = self.by_points.get(&key) else { continue };
                 if matches!((&**curve, surface), (Curve::Line { .. }, Surface::Plane { .. })) {
                     continue;
+                }
+                // At a pole the side is where the other end's free parameter leads.
+                if let Some(constant) = pole_at(&b) {
+                    b.uv[1 - constant] = a.uv[1 - constant];
+                } else if let Some(constant) = pole_at(&a) {
+                    a.uv[1 - constant] = b.uv[1 - constant];
                 }
                 let (from, to) = if a.position < b.position { (low, high) } else { (high, low) };
                 let off = SHARES.map(|share| {
