@@ -187,13 +187,54 @@ fn add_triangle(shape: &Shape, triangle: usize, origin: DVec3, exact: bool, sums
     if let Some((pole, constant)) = shape.pole(triangle) {
         return add_fan(surface, shape.uv[triangle], pole, constant, origin, sums);
     }
-    let uv_area = (ub - ua).perp_dot(uc - ua) * 0.5;
-    // The sign of the area in parameters and that of the surface's normal belong together: only their product counts.
-    let sign = if surface.outwards { uv_area.abs() } else { -uv_area.abs() };
-    for ([wa, wb, wc], weight) in RULE {
-        let d = surface.derivatives(ua * wa + ub * wb + uc * wc);
-        sums.add(d.point - origin, d.du.cross(d.dv) * (sign * weight));
+    let sign = if surface.outwards { 1.0 } else { -1.0 };
+    for [ua, ub, uc] in smooth_pieces([ua, ub, uc], &surface.breaks) {
+        // The signs of the area in parameters and of the surface's normal belong together: only their product counts.
+        let area = ((ub - ua).perp_dot(uc - ua) * 0.5).abs();
+        for ([wa, wb, wc], weight) in RULE {
+            let d = surface.derivatives(ua * wa + ub * wb + uc * wc);
+            sums.add(d.point - origin, d.du.cross(d.dv) * (sign * area * weight));
+        }
     }
+}
+
+/// A triangle in parameters, cut where the surface's derivatives may jump: rules of integration want none inside.
+fn smooth_pieces(triangle: [DVec2; 3], breaks: &[Vec<f64>; 2]) -> Vec<[DVec2; 3]> {
+    let mut pieces = vec![triangle.to_vec()];
+    for (k, breaks) in breaks.iter().enumerate() {
+        let range = |corners: &[DVec2]| {
+            corners.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |r, c| [r[0].min(c[k]), r[1].max(c[k])])
+        };
+        let [low, high] = range(&triangle);
+        let margin = 1e-9 * (high - low);
+        let from = breaks.partition_point(|&at| at <= low + margin);
+        for &at in breaks[from..].iter().take_while(|&&at| at < high - margin) {
+            pieces = pieces.iter().flat_map(|corners| cut(corners, k, at)).collect();
+        }
+    }
+    pieces
+        .iter()
+        .flat_map(|corners| (2..corners.len()).map(|c| [corners[0], corners[c - 1], corners[c]]))
+        .collect()
+}
+
+/// The two sides of a convex polygon, or the one that there is.
+fn cut(corners: &[DVec2], k: usize, at: f64) -> Vec<Vec<DVec2>> {
+    let mut sides = [Vec::new(), Vec::new()];
+    for (index, &a) in corners.iter().enumerate() {
+        let b = corners[(index + 1) % corners.len()];
+        if a[k] <= at {
+            sides[0].push(a);
+        }
+        if a[k] >= at {
+            sides[1].push(a);
+        }
+        if (a[k] < at && b[k] > at) || (a[k] > at && b[k] < at) {
+            let crossing = a.lerp(b, (at - a[k]) / (b[k] - a[k]));
+            sides.iter_mut().for_each(|side| side.push(crossing));
+        }
+    }
+    sides.into_iter().filter(|side| side.len() > 2).collect()
 }
 
 /// The sliver between a chord and its edge: added where it lies beyond the triangle, taken off where it lies in it.
@@ -328,6 +369,20 @@ mod tests {
         for (found, expected) in found.volume_moments_mm5.iter().zip(expected) {
             assert!((found - expected).abs() < 1e-9, "{found} {expected}");
         }
+    }
+
+    #[test]
+    fn pieces_fill_the_triangle_they_are_cut_from() {
+        let triangle = [DVec2::ZERO, DVec2::new(3.0, 0.5), DVec2::new(1.0, 2.5)];
+        let pieces = smooth_pieces(triangle, &[vec![-1.0, 0.5, 1.0, 1.0, 7.0], vec![0.5, 2.0]]);
+        let area = |[a, b, c]: [DVec2; 3]| (b - a).perp_dot(c - a) * 0.5;
+        let sum: f64 = pieces.iter().map(|&piece| area(piece)).sum();
+        assert!((sum - area(triangle)).abs() < 1e-12);
+        let straddles = |piece: &[DVec2; 3], k: usize, at: f64| {
+            piece.iter().any(|c| c[k] < at - 1e-9) && piece.iter().any(|c| c[k] > at + 1e-9)
+        };
+        assert!(!pieces.iter().any(|piece| straddles(piece, 0, 0.5) || straddles(piece, 1, 2.0)));
+        assert_eq!(smooth_pieces(triangle, &[Vec::new(), Vec::new()]), [triangle]);
     }
 
     #[test]

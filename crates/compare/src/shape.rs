@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
 use trimloop_brep::{BodyKind, FaceGeometry, Model, Part};
-use trimloop_geom::{Derivatives, Surface};
-use trimloop_mesh::{FaceStatus, PartMesh};
+use trimloop_geom::{Derivatives, Direction, Interval, Surface};
+use trimloop_mesh::{FaceMesh, FaceStatus, PartMesh};
 
 use crate::rim::{Chords, Rim};
 use crate::triangles::Triangles;
@@ -57,6 +57,8 @@ pub struct Placed {
     pub local: DAffine3,
     /// Whether the surface's normal points outwards.
     pub outwards: bool,
+    /// Parameters in u and in v at which derivatives may jump, over the face.
+    pub breaks: [Vec<f64>; 2],
     /// Where a whole side of its parameters is a single point: which parameter is constant there (0 for u), and the
     /// point in the model's coordinates.
     pub poles: Vec<(usize, DVec3)>,
@@ -178,6 +180,7 @@ impl Shape {
             }
             let poles = surface.iter().flat_map(|surface| surface.singularities());
             let poles = poles.map(|s| (s.constant as usize, world.transform_point3(s.point))).collect();
+            let breaks = surface.as_ref().map_or_else(Default::default, |surface| breaks(surface, face_mesh));
             let outwards = surface.as_ref().is_none_or(|surface| faces_outwards(surface, face_mesh));
             self.patches.push(Patch {
                 name: face.entity.to_string(),
@@ -189,6 +192,7 @@ impl Shape {
                     world: *world,
                     local: world.inverse(),
                     outwards: outwards != mirrored,
+                    breaks,
                     poles,
                 }),
             });
@@ -230,8 +234,25 @@ impl Shape {
     }
 }
 
+/// Where the derivatives of a surface may jump, over a face.
+fn breaks(surface: &Surface, mesh: &FaceMesh) -> [Vec<f64>; 2] {
+    if !matches!(surface.kind(), "nurbs" | "extrusion" | "revolution" | "offset") {
+        return Default::default();
+    }
+    let corners = mesh.vertices.iter().map(|vertex| vertex.uv);
+    let (low, high) =
+        corners.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(a, b), uv| (a.min(uv), b.max(uv)));
+    [(0, Direction::U), (1, Direction::V)].map(|(k, direction)| {
+        if low[k] < high[k] {
+            surface.breakpoints(direction, Interval::new(low[k], high[k]))
+        } else {
+            Vec::new()
+        }
+    })
+}
+
 /// Whether a surface's own normals agree with those of a face's triangles, most of them.
-fn faces_outwards(surface: &Surface, mesh: &trimloop_mesh::FaceMesh) -> bool {
+fn faces_outwards(surface: &Surface, mesh: &FaceMesh) -> bool {
     let mut sum = 0.0;
     let stride = (mesh.vertices.len() / 32).max(1);
     for vertex in mesh.vertices.iter().step_by(stride) {
