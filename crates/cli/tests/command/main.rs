@@ -1,6 +1,7 @@
 //! The `trimloop` command from outside: exit codes, files, messages.
 
 mod bad_input;
+mod compare;
 mod inspect;
 mod output;
 mod report;
@@ -60,16 +61,29 @@ impl Scratch {
         names
     }
 
-    /// Runs `trimloop` in the folder.
-    fn run<S: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = S>) -> Run {
+    /// Runs `trimloop` in the folder, with these variables in its environment.
+    fn run_with<S: AsRef<OsStr>>(
+        &self,
+        arguments: impl IntoIterator<Item = S>,
+        environment: &[(&str, &str)],
+    ) -> Run {
         let mut command = Command::new(env!("CARGO_BIN_EXE_trimloop"));
-        let Output { status, stdout, stderr } =
-            command.current_dir(self.0.path()).args(arguments).output().expect("trimloop runs");
+        let Output { status, stdout, stderr } = command
+            .current_dir(self.0.path())
+            .args(arguments)
+            .envs(environment.iter().copied())
+            .output()
+            .expect("trimloop runs");
         Run {
             code: status.code(),
             stdout: String::from_utf8(stdout).expect("UTF-8"),
             stderr: String::from_utf8(stderr).expect("UTF-8"),
         }
+    }
+
+    /// Runs `trimloop` in the folder.
+    fn run<S: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = S>) -> Run {
+        self.run_with(arguments, &[])
     }
 }
 
