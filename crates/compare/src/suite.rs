@@ -26,7 +26,7 @@
 //! tags = ["freecad"]
 //! ```
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
@@ -225,7 +225,7 @@ impl Suite {
                 quantities,
             )?);
         }
-        let mut without_reference = 0;
+        let mut bare: BTreeSet<PathBuf> = BTreeSet::new();
         for pattern in &file.pattern {
             let wanted = folder.join(&pattern.input).display().to_string();
             let found =
@@ -241,10 +241,13 @@ impl Suite {
                 if path.is_file() {
                     cases.push(pattern.case(reference, input, path, usual, quantities)?);
                 } else {
-                    without_reference += 1;
+                    bare.insert(input);
                 }
             }
         }
+        // Of several patterns one is enough.
+        bare.retain(|input| !cases.iter().any(|case| case.input == *input));
+        let without_reference = bare.len();
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Self {
             name: file.name.unwrap_or(stem),
