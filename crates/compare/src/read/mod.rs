@@ -108,7 +108,7 @@ fn is_usual(extension: &str, format: Format) -> bool {
 }
 
 fn sniff(bytes: &[u8], path: &Path) -> Option<Format> {
-    let text = bytes.trim_ascii_start();
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
     let begins =
         |word: &str| text.len() >= word.len() && text[..word.len()].eq_ignore_ascii_case(word.as_bytes());
     if bytes.starts_with(b"glTF") {
@@ -124,7 +124,7 @@ fn sniff(bytes: &[u8], path: &Path) -> Option<Format> {
     if stl::has_length_of_binary(bytes) {
         return Some(Format::StlBinary);
     }
-    if begins("solid") && stl::looks_like_text(text) {
+    if stl::looks_like_text(text) {
         return Some(Format::StlText);
     }
     if begins("{") {

@@ -16,11 +16,12 @@ pub(super) fn has_length_of_binary(bytes: &[u8]) -> bool {
     bytes.len() >= wanted && bytes.len() - wanted < FACET && !(count == 0 && looks_like_text(bytes))
 }
 
-/// Whether what follows the word `solid` is text with facets in it, or an end.
+/// Whether a file is text with facets in it, or at least says that it is a solid and ends.
 pub(super) fn looks_like_text(bytes: &[u8]) -> bool {
-    let start = &bytes[..bytes.len().min(4096)];
+    let start = &bytes[..bytes.len().min(1 << 16)];
     let text = String::from_utf8_lossy(start).to_ascii_lowercase();
-    !start.contains(&0) && (text.contains("facet") || text.contains("endsolid"))
+    let words = |wanted: &str| text.split_ascii_whitespace().any(|word| word == wanted);
+    !start.contains(&0) && (words("facet") && words("vertex") || words("solid") && words("endsolid"))
 }
 
 fn count(bytes: &[u8]) -> Option<usize> {
@@ -49,43 +50,45 @@ pub(super) fn read_binary(bytes: &[u8]) -> Result<MeshFile, MeshError> {
     Ok(millimetres("stl", triangles))
 }
 
+/// Words and numbers; how they are spread over lines does not matter.
 pub(super) fn read_text(bytes: &[u8]) -> Result<MeshFile, MeshError> {
     let text = String::from_utf8_lossy(bytes);
+    let line_of = |word: &str| {
+        let before = &text.as_bytes()[..word.as_ptr() as usize - text.as_ptr() as usize];
+        let ends = before.iter().filter(|b| **b == b'\n').count();
+        1 + if ends > 0 { ends } else { before.iter().filter(|b| **b == b'\r').count() }
+    };
     let mut triangles = Triangles::default();
     let mut corners: Vec<DVec3> = Vec::new();
     let (mut ended, mut notes) = (false, Vec::new());
-    for (index, line) in text.lines().enumerate() {
-        let mut words = line.split_ascii_whitespace();
-        let Some(word) = words.next() else { continue };
-        match word.to_ascii_lowercase().as_str() {
-            "solid" => {
-                let name = words.collect::<Vec<_>>().join(" ");
+    let mut words = text.split_ascii_whitespace().peekable();
+    while let Some(word) = words.next() {
+        let is = |name: &str| word.eq_ignore_ascii_case(name);
+        if is("solid") || is("endsolid") {
+            ended = is("endsolid");
+            let goes_on =
+                |word: &&str| !["facet", "solid", "endsolid"].iter().any(|w| w.eq_ignore_ascii_case(word));
+            let name: Vec<&str> = std::iter::from_fn(|| words.next_if(goes_on)).collect();
+            if !ended {
                 let at = triangles.triangles.len();
-                triangles.pieces.push(Piece { name, triangles: at..at });
+                triangles.pieces.push(Piece { name: name.join(" "), triangles: at..at });
             }
-            "vertex" => {
-                let numbers: Vec<f64> = words.map_while(|word| word.parse().ok()).collect();
-                let [x, y, z] = numbers[..] else {
-                    return Err(MeshError::unusable(format!(
-                        "line {}: a vertex needs three numbers",
-                        index + 1
-                    )));
-                };
-                corners.push(DVec3::new(x, y, z));
-            }
-            "endloop" | "endfacet" if !corners.is_empty() => {
-                let [a, b, c] = corners[..] else {
-                    let line = index + 1;
-                    return Err(MeshError::unusable(format!(
-                        "line {line}: a facet has {} corners",
-                        corners.len()
-                    )));
-                };
-                push(&mut triangles, [a, b, c]);
-                corners.clear();
-            }
-            "endsolid" => ended = true,
-            _ => {}
+        } else if is("vertex") {
+            let mut number = || words.next().and_then(|word| word.parse::<f64>().ok());
+            let (Some(x), Some(y), Some(z)) = (number(), number(), number()) else {
+                return Err(MeshError::unusable(format!(
+                    "line {}: a vertex needs three numbers",
+                    line_of(word)
+                )));
+            };
+            corners.push(DVec3::new(x, y, z));
+        } else if (is("endloop") || is("endfacet")) && !corners.is_empty() {
+            let [a, b, c] = corners[..] else {
+                let (line, count) = (line_of(word), corners.len());
+                return Err(MeshError::unusable(format!("line {line}: a facet has {count} corners")));
+            };
+            push(&mut triangles, [a, b, c]);
+            corners.clear();
         }
         let end = triangles.triangles.len();
         if let Some(piece) = triangles.pieces.last_mut() {
@@ -102,4 +105,40 @@ fn push(triangles: &mut Triangles, corners: [DVec3; 3]) {
     let first = triangles.points.len() as u32;
     triangles.points.extend(corners);
     triangles.triangles.push([first, first + 1, first + 2]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FACET: &str =
+        "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet";
+
+    #[test]
+    fn lines_do_not_matter() {
+        for between in [" ", "\n", "\r\n", "\r", "\t"] {
+            let text = format!("solid a part {FACET} endsolid a part").replace(' ', between);
+            let file = read_text(text.as_bytes()).expect("a mesh");
+            assert_eq!((file.triangles.triangles.len(), file.notes.len()), (1, 0), "{between:?}");
+            assert!(looks_like_text(text.as_bytes()));
+        }
+        assert_eq!(read_text(format!("solid a {FACET}").as_bytes()).expect("a mesh").notes.len(), 1);
+    }
+
+    #[test]
+    fn mistakes_name_their_line() {
+        let text = format!("solid\n{FACET}\nfacet\nouter loop\nvertex 1 2\nendloop");
+        let error = read_text(text.as_bytes()).expect_err("two numbers").to_string();
+        assert!(error.contains("line 5"), "{error}");
+    }
+
+    #[test]
+    fn the_length_tells_binary_from_text() {
+        let mut binary = b"solid facet vertex".to_vec();
+        binary.resize(80, b' ');
+        binary.extend(1u32.to_le_bytes());
+        binary.resize(134, 1);
+        assert!(has_length_of_binary(&binary));
+        assert!(!has_length_of_binary(&binary[..120]));
+    }
 }
