@@ -19,19 +19,21 @@ use crate::triangles::{Piece, Triangles};
 
 /// Nodes may hold one another this deep.
 const MAX_DEPTH: usize = 512;
-/// Extensions that a file may require: what they change is read here.
-const KNOWN: [&str; 1] = ["KHR_mesh_quantization"];
+/// Extensions that a file may require: what they change is read here, or is no matter of geometry.
+const KNOWN: [&str; 6] =
+    ["KHR_mesh_quantization", "KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_xmp"];
 
 pub(super) fn read(bytes: &[u8], path: &Path) -> Result<MeshFile, MeshError> {
     let (json, blob) = split(bytes)?;
     let document = document(&json)?;
     let buffers = buffers(&document, blob.as_deref(), path)?;
     let mut triangles = Triangles::default();
+    let mut seen = vec![false; document.nodes().len()];
     let scene = document.default_scene().or_else(|| document.scenes().next());
     match scene {
         Some(scene) => {
             for node in scene.nodes() {
-                add(&node, &DAffine3::IDENTITY, &buffers, 0, &mut triangles)?;
+                add(&node, &DAffine3::IDENTITY, &buffers, &mut seen, 0, &mut triangles)?;
             }
         }
         None => return Err(damaged("it has no scene")),
@@ -49,7 +51,7 @@ type Split<'b> = (Cow<'b, [u8]>, Option<Cow<'b, [u8]>>);
 
 fn split(bytes: &[u8]) -> Result<Split<'_>, MeshError> {
     if !bytes.starts_with(b"glTF") {
-        return Ok((Cow::Borrowed(bytes), None));
+        return Ok((Cow::Borrowed(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)), None));
     }
     let glb = gltf::Glb::from_slice(bytes).map_err(damaged)?;
     Ok((glb.json, glb.bin))
@@ -59,7 +61,9 @@ fn split(bytes: &[u8]) -> Result<Split<'_>, MeshError> {
 fn document(json: &[u8]) -> Result<Document, MeshError> {
     let mut value: Value = serde_json::from_slice(json).map_err(damaged)?;
     if let Some(Value::Array(required)) = value.get_mut("extensionsRequired") {
-        required.retain(|name| !name.as_str().is_some_and(|name| KNOWN.contains(&name)));
+        required.retain(|name| {
+            !name.as_str().is_some_and(|name| KNOWN.iter().any(|known| name.starts_with(known)))
+        });
         if let Some(name) = required.iter().find_map(Value::as_str) {
             return Err(MeshError::unusable(format!(
                 "it needs the glTF extension {name}, which is not read here"
@@ -126,11 +130,16 @@ fn add(
     node: &Node<'_>,
     parent: &DAffine3,
     buffers: &[Cow<'_, [u8]>],
+    seen: &mut [bool],
     depth: usize,
     out: &mut Triangles,
 ) -> Result<(), MeshError> {
+    // Nodes are trees: one that comes twice could hold itself, or double from level to level.
+    if std::mem::replace(&mut seen[node.index()], true) {
+        return Err(damaged(format!("node {} has two parents, or holds itself", node.index())));
+    }
     if depth > MAX_DEPTH {
-        return Err(damaged("a node holds itself"));
+        return Err(damaged(format!("its nodes stand more than {MAX_DEPTH} deep in one another")));
     }
     let own = Mat4::from_cols_array_2d(&node.transform().matrix()).as_dmat4();
     let map = *parent * DAffine3::from_mat4(own);
@@ -161,7 +170,7 @@ fn add(
         let pieces = vec![Piece { name: name.to_owned(), triangles: 0..triangles.len() }];
         out.add(Triangles { points, triangles, pieces }.transformed(&map));
     }
-    node.children().try_for_each(|child| add(&child, &map, buffers, depth + 1, out))
+    node.children().try_for_each(|child| add(&child, &map, buffers, seen, depth + 1, out))
 }
 
 /// The numbers of an accessor, one after the other.

@@ -12,30 +12,56 @@ use crate::triangles::{Piece, Triangles};
 /// Objects may hold one another this deep.
 const MAX_DEPTH: usize = 32;
 /// More triangles than this are no model but an attack: components can double from level to level.
-const MAX_TRIANGLES: usize = 200_000_000;
+const MAX_TRIANGLES: usize = 20_000_000;
+/// More uses of objects than this neither.
+const MAX_USES: usize = 1_000_000;
+/// Nor a model that unpacks to more than this, bytes.
+const MAX_UNPACKED: u64 = 1 << 30;
 
 pub(super) fn read(bytes: &[u8]) -> Result<MeshFile, MeshError> {
+    let damaged =
+        |error: &dyn std::fmt::Display| MeshError::unusable(format!("the 3MF file is damaged: {error}"));
+    let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
+    let mut unpacked = 0u64;
+    for index in 0..archive.len() {
+        unpacked += archive.by_index_raw(index).map_err(|error| damaged(&error))?.size();
+    }
+    if unpacked > MAX_UNPACKED {
+        return Err(damaged(&format!("it would unpack to {} MB", unpacked >> 20)));
+    }
     let models = threemf::read(Cursor::new(bytes))
         .map_err(|error| MeshError::unusable(format!("the 3MF file is damaged: {error}")))?;
     let Some(unit) = models.first().map(|model| unit_mm(&model.unit)) else {
         return Err(MeshError::unusable("the archive holds no 3MF model"));
     };
     let mut triangles = Triangles::default();
+    let mut uses = 0;
     for model in &models {
         let own = unit_mm(&model.unit) / unit;
         for item in &model.build.item {
             let map = DAffine3::from_scale(DVec3::splat(own)) * placement(item.transform.as_ref());
-            add(model, item.objectid, &map, 0, &mut triangles)?;
+            add(model, item.objectid, &map, 0, &mut uses, &mut triangles)?;
         }
     }
     let convention = Convention { unit_mm: unit, up: Up::Z, stated: true };
     Ok(MeshFile { format: "3mf", triangles, convention, unusable_triangles: 0, notes: Vec::new() })
 }
 
-fn add(model: &Model, id: usize, map: &DAffine3, depth: usize, out: &mut Triangles) -> Result<(), MeshError> {
+fn add(
+    model: &Model,
+    id: usize,
+    map: &DAffine3,
+    depth: usize,
+    uses: &mut usize,
+    out: &mut Triangles,
+) -> Result<(), MeshError> {
     let damaged = |message: String| MeshError::unusable(format!("the 3MF file is damaged: {message}"));
     if depth > MAX_DEPTH {
         return Err(damaged(format!("object {id} holds itself")));
+    }
+    *uses += 1;
+    if *uses > MAX_USES {
+        return Err(damaged(format!("its objects are used more than {MAX_USES} times")));
     }
     let object = model.resources.object.iter().find(|object| object.id == id);
     let object = object.ok_or_else(|| damaged(format!("there is no object {id}")))?;
@@ -59,7 +85,7 @@ fn add(model: &Model, id: usize, map: &DAffine3, depth: usize, out: &mut Triangl
     }
     for component in object.components.iter().flat_map(|list| &list.component) {
         let map = *map * placement(component.transform.as_ref());
-        add(model, component.objectid, &map, depth + 1, out)?;
+        add(model, component.objectid, &map, depth + 1, uses, out)?;
     }
     Ok(())
 }
