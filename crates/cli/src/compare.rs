@@ -82,6 +82,11 @@ fn held_against(arguments: &CompareArguments) -> anyhow::Result<Outcome> {
     let paths = [arguments.a.as_path(), arguments.b.as_path()];
     let outputs =
         [arguments.report.as_deref().filter(|path| *path != Path::new("-")), arguments.html.as_deref()];
+    if let [Some(report), Some(html)] = outputs
+        && is_same(report, html)
+    {
+        anyhow::bail!("--report and --html name the same file");
+    }
     for output in outputs.iter().flatten() {
         if paths.iter().any(|path| is_same(path, output)) {
             anyhow::bail!("`{}` is an input, and would be overwritten", output.display());

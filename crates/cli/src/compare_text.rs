@@ -11,7 +11,7 @@ use crate::side::FileReport;
 /// The verdict; what it rests on unless `quiet`; every face that differs where `verbose`.
 pub fn of(held: &Held, quiet: bool, verbose: bool) -> String {
     let mut out = String::new();
-    let verdict = verdict_line(held);
+    let verdict = verdict_line(held) + &guesses(held);
     if quiet {
         return verdict + "\n";
     }
@@ -28,12 +28,15 @@ pub fn of(held: &Held, quiet: bool, verbose: bool) -> String {
     }
     let _ = writeln!(out, "\n{:<20} {:>16} {:>16} {:>12}", "", "A", "B", "B / A");
     for (name, a, b) in figure_rows(&held.found.a, &held.found.b) {
-        let is_detail = a == 0.0 && b == 0.0 || name.starts_with("moment");
+        let is_detail = a == 0.0 && b == 0.0 || a.is_nan() && b.is_nan() || name.starts_with("moment");
         if is_detail && !verbose {
             continue;
         }
-        let share =
-            if a == b || a == 0.0 { String::new() } else { format!("{:+.4} %", (b / a - 1.0) * 100.0) };
+        let share = if a == b || a == 0.0 || a.is_nan() || b.is_nan() {
+            String::new()
+        } else {
+            format!("{:+.4} %", (b / a - 1.0) * 100.0)
+        };
         let _ = writeln!(out, "{name:<20} {:>16} {:>16} {share:>12}", number(a), number(b));
     }
     let _ = writeln!(
@@ -86,6 +89,12 @@ fn about(file: &FileReport, side: &Side) -> String {
     };
     let convention = file.convention.as_ref().map_or_else(String::new, |text| format!("; {text}"));
     format!("{} ({}, {kind}{convention})", file.path, file.format)
+}
+
+/// Units and axes that are not those of the format.
+fn guesses(held: &Held) -> String {
+    let sides = ["A", "B"].iter().zip(&held.files);
+    sides.filter_map(|(name, file)| Some(format!(" [{name} taken in {}]", file.guess()?))).collect()
 }
 
 fn verdict_line(held: &Held) -> String {

@@ -85,7 +85,8 @@ pub fn run(arguments: &RegressArguments) -> anyhow::Result<Outcome> {
         bless(&suite, &ran, &mut baseline, cases.len() == suite.cases.len())?;
     }
     manual::print(regress_text::of(&suite, &ran, arguments).as_bytes())?;
-    Ok(if passed || arguments.bless { Outcome::Good } else { Outcome::Incomplete })
+    let is_broken = ran.iter().any(|case| case.status == Status::Broken);
+    Ok(if passed || arguments.bless && !is_broken { Outcome::Good } else { Outcome::Incomplete })
 }
 
 /// Nothing that meshing has to say concerns the suite's own progress.
@@ -122,6 +123,11 @@ fn run_case(case: &Case, baseline: &Baseline, arguments: &RegressArguments) -> R
         Ok(held) => {
             let (status, why) = status_of(case, &held.judgement, before.as_ref());
             (ran.status, ran.why) = (status, why);
+            if let Some(guess) = held.files[1].guess() {
+                ran.why.push(format!(
+                    "The reference is taken in {guess}, which is not what is usual for its format."
+                ));
+            }
             ran.scale_mm = held.scale_mm();
             if !arguments.no_pictures {
                 let detail =

@@ -53,6 +53,16 @@ pub fn of(suite: &Suite, ran: &[Ran], arguments: &RegressArguments) -> String {
         count(Status::Known),
         arguments.output.join("report.html").display()
     );
+    let guessed = ran
+        .iter()
+        .filter(|case| case.convention.as_ref().is_some_and(|text| text.contains("(guessed")))
+        .count();
+    if guessed > 0 {
+        let _ = writeln!(
+            out,
+            "{guessed} references are in another unit, or another way up, than is usual for their format"
+        );
+    }
     if suite.without_reference > 0 {
         let _ = writeln!(out, "{} files have no reference to be held against", suite.without_reference);
     }

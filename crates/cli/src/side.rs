@@ -47,6 +47,14 @@ pub struct FileReport {
     pub notes: Vec<String>,
 }
 
+impl FileReport {
+    /// Unit and axes, where they were guessed against what is usual for the format.
+    pub fn guess(&self) -> Option<&str> {
+        let text = self.convention.as_deref()?;
+        text.contains("(guessed").then(|| text.split(" (").next().unwrap_or(text))
+    }
+}
+
 /// How CAD files are meshed for a comparison: five times as fine as usual, since triangles stand in for the exact surface
 /// where the nearest place is sought.
 fn mesh_options() -> MeshOptions {

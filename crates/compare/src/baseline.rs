@@ -78,6 +78,9 @@ impl Outcome {
 
 /// Nine digits: what is beyond differs from machine to machine.
 fn rounded(value: f64) -> f64 {
+    if !value.is_finite() {
+        return 0.0;
+    }
     format!("{value:.8e}").parse().unwrap_or(value)
 }
 
@@ -89,7 +92,13 @@ impl Baseline {
     /// Where the file is there and cannot be understood.
     pub fn read(path: &Path) -> Result<Self, String> {
         match std::fs::read_to_string(path) {
-            Ok(text) => serde_json::from_str(&text).map_err(|error| format!("`{}`: {error}", path.display())),
+            Ok(text) => match serde_json::from_str::<Self>(&text) {
+                Ok(baseline) if baseline.version > 1 => {
+                    Err(format!("`{}` is of version {}, 1 is known", path.display(), baseline.version))
+                }
+                Ok(baseline) => Ok(baseline),
+                Err(error) => Err(format!("`{}`: {error}", path.display())),
+            },
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 Ok(Self { version: 1, ..Self::default() })
             }

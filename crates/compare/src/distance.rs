@@ -123,13 +123,14 @@ pub fn places(shape: &Shape, count: usize) -> Vec<Sample> {
         let own = ((count as f64 * area / total).ceil() as usize).max(LEAST_PER_PATCH);
         let (mut sum, mut triangle) = (0.0, 0);
         for k in 0..own {
-            // Equal steps through the area, and in each triangle the points of a low-discrepancy sequence (R2).
-            let want = (k as f64 + 0.5) / own as f64 * area;
+            // A step through the area each, at another place within it each time (or they would keep step with what is
+            // regular in the mesh), and in the triangle: three coordinates of a low-discrepancy sequence (R3).
+            let want = (k as f64 + (k as f64 * R3[2]).fract()) / own as f64 * area;
             while triangle + 1 < triangles.len() && sum + areas[triangles[triangle] as usize] < want {
                 sum += areas[triangles[triangle] as usize];
                 triangle += 1;
             }
-            let (mut s, mut t) = ((k as f64 * R2[0]).fract(), (k as f64 * R2[1]).fract());
+            let (mut s, mut t) = ((k as f64 * R3[0]).fract(), (k as f64 * R3[1]).fract());
             if s + t > 1.0 {
                 (s, t) = (1.0 - s, 1.0 - t);
             }
@@ -152,8 +153,8 @@ pub fn places(shape: &Shape, count: usize) -> Vec<Sample> {
 
 const LEAST_PER_PATCH: usize = 24;
 const MAX_CORNERS: usize = 4_000_000;
-/// The inverse of the plastic number and of its square.
-const R2: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
+/// Powers of the inverse of the root of x⁴ = x + 1.
+const R3: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3];
 
 /// The place of a triangle with these weights of its corners, on the exact surface where there is one.
 fn place(shape: &Shape, triangle: u32, weights: [f64; 3]) -> DVec3 {

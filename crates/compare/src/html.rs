@@ -176,7 +176,7 @@ fn figures(a: &Side, b: &Side) -> String {
     let mut out =
         String::from("<table><tr><th></th><th class=n>A</th><th class=n>B</th><th class=n>B / A</th></tr>");
     for (name, a, b) in figure_rows(a, b) {
-        let share = if a == b {
+        let share = if a == b || a.is_nan() || b.is_nan() {
             "=".to_owned()
         } else if a != 0.0 {
             format!("{:+.4} %", (b / a - 1.0) * 100.0)
@@ -196,13 +196,15 @@ fn figures(a: &Side, b: &Side) -> String {
 /// What both sides measure, row by row: name, A's, B's.
 pub fn figure_rows(a: &Side, b: &Side) -> Vec<(&'static str, f64, f64)> {
     let count = |value: usize| value as f64;
+    // What does not close has no inside.
+    let inside = |side: &Side, value: f64| if side.topology.is_watertight() { value } else { f64::NAN };
     let (fa, fb, ta, tb) = (&a.figures, &b.figures, &a.topology, &b.topology);
     vec![
         ("area, mm²", fa.area_mm2, fb.area_mm2),
-        ("volume, mm³", fa.volume_mm3, fb.volume_mm3),
-        ("moment 1, mm⁵", fa.volume_moments_mm5[0], fb.volume_moments_mm5[0]),
-        ("moment 2, mm⁵", fa.volume_moments_mm5[1], fb.volume_moments_mm5[1]),
-        ("moment 3, mm⁵", fa.volume_moments_mm5[2], fb.volume_moments_mm5[2]),
+        ("volume, mm³", inside(a, fa.volume_mm3), inside(b, fb.volume_mm3)),
+        ("moment 1, mm⁵", inside(a, fa.volume_moments_mm5[0]), inside(b, fb.volume_moments_mm5[0])),
+        ("moment 2, mm⁵", inside(a, fa.volume_moments_mm5[1]), inside(b, fb.volume_moments_mm5[1])),
+        ("moment 3, mm⁵", inside(a, fa.volume_moments_mm5[2]), inside(b, fb.volume_moments_mm5[2])),
         ("triangles", count(ta.triangles), count(tb.triangles)),
         ("components", count(ta.components), count(tb.components)),
         ("closed components", count(ta.closed_components), count(tb.closed_components)),
@@ -218,6 +220,9 @@ pub fn figure_rows(a: &Side, b: &Side) -> Vec<(&'static str, f64, f64)> {
 
 /// A number as people like it: whole ones whole, others with six digits.
 pub fn number(value: f64) -> String {
+    if value.is_nan() {
+        return "\u{2013}".to_owned();
+    }
     if value.fract() == 0.0 && value.abs() < 1e9 {
         return format!("{value:.0}");
     }

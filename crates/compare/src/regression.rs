@@ -127,7 +127,7 @@ pub fn status_of(case: &Case, judgement: &Judgement, baseline: Option<&Outcome>)
 pub fn junit(suite: &str, ran: &[Ran]) -> Result<String, String> {
     let mut tests = TestSuite::new(suite);
     for case in ran {
-        let text = case.why.join("\n");
+        let text = printable(&case.why.join("\n"));
         let mut status = if case.status.is_good() {
             TestCaseStatus::success()
         } else {
@@ -138,11 +138,11 @@ pub fn junit(suite: &str, ran: &[Ran]) -> Result<String, String> {
             })
         };
         if !case.status.is_good() {
-            status.set_message(case.why.first().cloned().unwrap_or_default());
+            status.set_message(printable(case.why.first().map_or("", String::as_str)));
             status.set_type(case.status.as_str());
             status.set_description(text.clone());
         }
-        let mut test = TestCase::new(case.name.as_str(), status);
+        let mut test = TestCase::new(printable(&case.name), status);
         test.set_classname(suite);
         test.set_time(Duration::from_secs_f64(case.seconds));
         if case.status.is_good() && !text.is_empty() {
@@ -153,6 +153,13 @@ pub fn junit(suite: &str, ran: &[Ran]) -> Result<String, String> {
     let mut report = Report::new(suite);
     report.add_test_suite(tests);
     report.to_string().map_err(|error| error.to_string())
+}
+
+/// A text without what XML cannot hold, whatever the name of a file or a face is.
+fn printable(text: &str) -> String {
+    let fits =
+        |c: char| (matches!(c, '\n' | '\t') || !c.is_control()) && !matches!(c, '\u{fffe}' | '\u{ffff}');
+    text.chars().map(|c| if fits(c) { c } else { '\u{fffd}' }).collect()
 }
 
 /// One page on the whole suite: what failed first.

@@ -227,7 +227,10 @@ impl Suite {
         }
         let mut bare: BTreeSet<PathBuf> = BTreeSet::new();
         for pattern in &file.pattern {
-            let wanted = folder.join(&pattern.input).display().to_string();
+            // The folder itself is no pattern.
+            let wanted =
+                Path::new(&glob::Pattern::escape(&folder.display().to_string())).join(&pattern.input);
+            let wanted = wanted.display().to_string();
             let found =
                 glob::glob(&wanted).map_err(|error| SuiteError::Wrong(format!("`{wanted}`: {error}")))?;
             for input in found.filter_map(Result::ok).filter(|input| is_cad_extension(input)) {

@@ -86,7 +86,7 @@ impl Triangles {
     /// Takes out triangles with corners that are no places; gives how many.
     pub fn drop_unusable(&mut self) -> usize {
         // Squares and products of coordinates must stay finite.
-        let usable = |index: u32| self.points[index as usize].to_array().iter().all(|x| x.abs() < 1e100);
+        let usable = |index: u32| self.points[index as usize].to_array().iter().all(|x| x.abs() < 1e50);
         let good: Vec<bool> = self.triangles.iter().map(|t| t.iter().all(|&index| usable(index))).collect();
         let dropped = good.iter().filter(|good| !**good).count();
         if dropped > 0 {

@@ -112,6 +112,9 @@ pub fn judge(found: &Comparison, gates: &Gates) -> Judgement {
     }
     let turned = found.faces.iter().filter(|face| is_turned(face)).count();
     list.push(gate("orientation", turned as f64, 0.0, "faces"));
+    // Where one side is of a piece, the other one must be too.
+    let (flipped_a, flipped_b) = (a.topology.flipped_edges, b.topology.flipped_edges);
+    list.push(gate("flipped", flipped_a.max(flipped_b) as f64, flipped_a.min(flipped_b) as f64, "edges"));
     list.push(gate("faces", (a.lost.len() + b.lost.len()) as f64, 0.0, "faces"));
     let kept = list.iter().all(|gate| gate.kept);
     let suspicion = if kept { None } else { suspicion(found, near_mm) };
@@ -188,10 +191,16 @@ fn differences(found: &Comparison, near_mm: f64) -> Vec<String> {
         );
     }
     let turned: Vec<&str> = found.faces.iter().filter(|f| is_turned(f)).map(|f| f.name.as_str()).collect();
-    if turned.len() == found.faces.len() && turned.len() > 1 {
+    if turned.len() == found.faces.len() && !turned.is_empty() {
         out.push("The two sides face opposite ways everywhere: one of them is inside out.".to_owned());
     } else if !turned.is_empty() {
         out.push(format!("Faces that the other side has turned over: {}.", listed(&turned)));
+    }
+    for (own, other, name) in [(&found.a, &found.b, "A"), (&found.b, &found.a, "B")] {
+        if own.topology.flipped_edges > other.topology.flipped_edges {
+            let edges = own.topology.flipped_edges;
+            out.push(format!("Neighbouring triangles of {name} face opposite ways at {edges} edges."));
+        }
     }
     let missing: Vec<&str> =
         found.faces.iter().filter(|f| f.covered < 0.01).map(|f| f.name.as_str()).collect();
@@ -216,6 +225,7 @@ fn differences(found: &Comparison, near_mm: f64) -> Vec<String> {
 }
 
 fn listed(names: &[&str]) -> String {
-    let shown = names.iter().take(8).copied().collect::<Vec<_>>().join(", ");
+    let named = |name: &&str| if name.is_empty() { "(unnamed)".to_owned() } else { (*name).to_owned() };
+    let shown = names.iter().take(8).map(named).collect::<Vec<_>>().join(", ");
     if names.len() > 8 { format!("{shown}, …") } else { shown }
 }

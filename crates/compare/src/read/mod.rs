@@ -87,6 +87,15 @@ pub fn read_mesh(path: &Path) -> Result<MeshFile, MeshError> {
         return Err(MeshError::unusable("none of its triangles has usable corners (NaN or infinite)"));
     }
     file.triangles = std::mem::take(&mut file.triangles).welded();
+    let area: f64 = (0..file.triangles.triangles.len()).map(|t| file.triangles.area_vector(t).length()).sum();
+    let size = file.triangles.bounds().diagonal();
+    if !(area > 1e-14 * size * size) {
+        return Err(MeshError::unusable("its triangles have no area: all of them are points or lines"));
+    }
+    for piece in &mut file.triangles.pieces {
+        // Names are shown on terminals.
+        piece.name = piece.name.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
+    }
     Ok(file)
 }
 
@@ -133,9 +142,14 @@ fn sniff(bytes: &[u8], path: &Path) -> Option<Format> {
     if obj::looks_like(text) {
         return Some(Format::Obj);
     }
+    let extension = path.extension()?.to_str()?.to_ascii_lowercase();
     // What is left may be a binary STL that was cut off; its reader says so.
-    let extension = path.extension()?.to_str()?;
-    (extension.eq_ignore_ascii_case("stl") && bytes.len() >= 84).then_some(Format::StlBinary)
+    let is_text = !bytes[..bytes.len().min(512)].contains(&0);
+    match extension.as_str() {
+        "stl" if bytes.len() >= 84 && !is_text => Some(Format::StlBinary),
+        "obj" if is_text && !text.is_empty() => Some(Format::Obj),
+        _ => None,
+    }
 }
 
 fn millimetres(format: &'static str, triangles: Triangles) -> MeshFile {

@@ -30,8 +30,13 @@ fn count(bytes: &[u8]) -> Option<usize> {
 }
 
 pub(super) fn read_binary(bytes: &[u8]) -> Result<MeshFile, MeshError> {
-    let claimed = count(bytes).unwrap_or(0);
+    let mut claimed = count(bytes).unwrap_or(0);
     let facets = bytes[HEADER.min(bytes.len())..].chunks_exact(FACET);
+    let mut notes = Vec::new();
+    if facets.len() > claimed && facets.remainder().is_empty() {
+        notes.push(format!("The file claims {claimed} triangles and holds {}: all are read.", facets.len()));
+        claimed = facets.len();
+    }
     if facets.len() < claimed {
         return Err(MeshError::unusable(format!(
             "it claims {claimed} triangles and has bytes for {} of them only",
@@ -47,7 +52,7 @@ pub(super) fn read_binary(bytes: &[u8]) -> Result<MeshFile, MeshError> {
         push(&mut triangles, [corner(12), corner(24), corner(36)]);
     }
     triangles.pieces = vec![Piece { name: String::new(), triangles: 0..claimed }];
-    Ok(millimetres("stl", triangles))
+    Ok(MeshFile { notes, ..millimetres("stl", triangles) })
 }
 
 /// Words and numbers; how they are spread over lines does not matter.

@@ -64,7 +64,9 @@ fn add(
         return Err(damaged(format!("its objects are used more than {MAX_USES} times")));
     }
     let object = model.resources.object.iter().find(|object| object.id == id);
-    let object = object.ok_or_else(|| damaged(format!("there is no object {id}")))?;
+    let object = object.ok_or_else(|| {
+        damaged(format!("there is no object {id} (objects in other files of the archive are not read)"))
+    })?;
     if let Some(mesh) = &object.mesh {
         let points: Vec<DVec3> = mesh.vertices.vertex.iter().map(|v| DVec3::new(v.x, v.y, v.z)).collect();
         let corner = |index: usize| u32::try_from(index).ok().filter(|&k| (k as usize) < points.len());
