@@ -1,0 +1,86 @@
+//! Bézier facets: basis functions per line, then grids tile by tile through workgroup memory, lists point by point.
+
+use crate::batch::{Batch, Job, Tile};
+use crate::device::Key;
+use crate::{Gpu, Quantities};
+
+/// Vectors in workgroup memory, as in `shaders/bezier_grid.wgsl`.
+const CAPACITY: u32 = 768;
+/// Points of a tile.
+const TILE: u32 = 1024;
+/// Points of a workgroup that goes point by point.
+pub(super) const POINTS: usize = 256;
+
+pub(super) fn encode(
+    gpu: &Gpu,
+    encoder: &mut wgpu::CommandEncoder,
+    batch: &Batch,
+    quantities: Quantities,
+    out: &wgpu::Buffer,
+) {
+    let width = batch.width as u32;
+    let stride = quantities.stride() as u32;
+    let lines = gpu.upload("lines", &batch.lines);
+    let basis = gpu.reserve("basis", 12 * (batch.lines.len() * batch.width) as u64);
+    let basis_key = Key::new("bezier_basis", "main").with("WIDTH", width);
+    gpu.dispatch(encoder, &basis_key, &[&lines, &basis], batch.lines.len().div_ceil(64));
+    let jobs = gpu.upload("jobs", &batch.jobs);
+    let control = gpu.upload("control points", &batch.control);
+    let facets = gpu.upload("facets", &batch.facets);
+    let kinds = quantities.kinds() as u32;
+    let grids = grid_tiles(batch, CAPACITY / kinds);
+    if !grids.is_empty() {
+        let key = Key::new("bezier_grid", "main").with("WIDTH", width).with("STRIDE", stride).with("KINDS", kinds);
+        let tiles = gpu.upload("tiles", &grids);
+        gpu.dispatch(encoder, &key, &[&jobs, &tiles, &lines, &basis, &control, &facets, out], grids.len());
+    }
+    let mut lists = batch.point_tiles(POINTS);
+    lists.retain(|tile| batch.jobs[tile.job as usize].is_list == 1);
+    if !lists.is_empty() {
+        let key = Key::new("tensor_points", "main").with("WIDTH", width).with("STRIDE", stride);
+        let tiles = gpu.upload("tiles", &lists);
+        gpu.dispatch(encoder, &key, &[&jobs, &tiles, &lines, &basis, &control, &facets, out], lists.len());
+    }
+}
+
+/// Tiles of the grids, none of which needs more than `capacity` control points along v in all its rows.
+fn grid_tiles(batch: &Batch, capacity: u32) -> Vec<Tile> {
+    let mut tiles = Vec::new();
+    for (number, job) in batch.jobs.iter().enumerate().filter(|(_, job)| job.is_list == 0) {
+        for (columns, controls) in column_runs(batch, job, capacity) {
+            let count = columns.end - columns.start;
+            let wanted = controls.end - controls.start;
+            let rows = (TILE / count).min(capacity / wanted).clamp(1, job.rows);
+            tiles.extend((0..job.rows).step_by(rows as usize).map(|start| Tile {
+                job: number as u32,
+                start,
+                end: (start + rows).min(job.rows),
+                knots: 0,
+                first_line: columns.start,
+                lines: count,
+                first_control: controls.start,
+                controls: wanted,
+            }));
+        }
+    }
+    tiles
+}
+
+/// Runs of columns of a grid, with the control points along v that each needs.
+fn column_runs(batch: &Batch, job: &Job, capacity: u32) -> Vec<(std::ops::Range<u32>, std::ops::Range<u32>)> {
+    let lines = &batch.lines[job.first_column as usize..(job.first_column + job.columns) as usize];
+    let mut runs: Vec<(std::ops::Range<u32>, std::ops::Range<u32>)> = Vec::new();
+    for (k, line) in (0u32..).zip(lines) {
+        let own = line.first..line.first + line.degree + 1;
+        if let Some((columns, controls)) = runs.last_mut() {
+            let joint = controls.start.min(own.start)..controls.end.max(own.end);
+            if joint.end - joint.start <= capacity && columns.end - columns.start < TILE {
+                columns.end = k + 1;
+                *controls = joint;
+                continue;
+            }
+        }
+        runs.push((k..k + 1, own));
+    }
+    runs
+}

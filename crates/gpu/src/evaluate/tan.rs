@@ -1,0 +1,79 @@
+//! Tan, Zhao, Lu 2012: de Boor's algorithm in one pass over the rows and one over the columns, region by region.
+
+use crate::batch::{Batch, Tile};
+use crate::device::Key;
+use crate::{Gpu, Quantities};
+
+/// Elements of a workgroup.
+const TILE: u32 = 1024;
+
+pub(super) fn encode(
+    gpu: &Gpu,
+    encoder: &mut wgpu::CommandEncoder,
+    batch: &Batch,
+    quantities: Quantities,
+    out: &wgpu::Buffer,
+) {
+    let kinds = quantities.kinds() as u32;
+    // Private memory is reserved for the largest order: a few sizes do.
+    let order = [4, 8, 16, 32, 64].into_iter().find(|&size| batch.width <= size).unwrap_or(128) as u32;
+    let key = |name| Key::new(name, "main").with("KINDS", kinds).with_literal("MAX_ORDER", order);
+    let lines = gpu.upload("lines", &batch.lines);
+    let jobs = gpu.upload("jobs", &batch.jobs);
+    let knots = gpu.upload("knots", &batch.knots);
+    let control = gpu.upload("control points", &batch.control);
+    let facets = gpu.upload("facets", &batch.facets);
+    let scratch = gpu.reserve("rows", 16 * (batch.scratch * quantities.kinds()) as u64);
+
+    let rows = row_tiles(batch);
+    let tiles = gpu.upload("tiles", &rows);
+    gpu.dispatch(encoder, &key("tan_rows"), &[&jobs, &tiles, &lines, &knots, &control, &scratch], rows.len());
+
+    let columns = column_tiles(batch);
+    let tiles = gpu.upload("tiles", &columns);
+    let key = key("tan_columns").with("STRIDE", quantities.stride() as u32);
+    gpu.dispatch(encoder, &key, &[&jobs, &tiles, &lines, &knots, &scratch, &facets, out], columns.len());
+}
+
+/// Elements (lines times control columns) whose lines lie in one span along u.
+fn row_tiles(batch: &Batch) -> Vec<Tile> {
+    let mut tiles = Vec::new();
+    for (number, job) in batch.jobs.iter().enumerate() {
+        // In a list every point brings its own knots.
+        let runs = if job.is_list == 1 { vec![0..job.rows] } else { batch.runs(job.first_row, job.rows) };
+        for run in runs {
+            let (start, end) = (run.start * job.scratch_columns, run.end * job.scratch_columns);
+            tiles.extend((start..end).step_by(TILE as usize).map(|start| Tile {
+                job: number as u32,
+                start,
+                end: (start + TILE).min(end),
+                ..Tile::default()
+            }));
+        }
+    }
+    tiles
+}
+
+/// Points whose columns lie in one span along v.
+fn column_tiles(batch: &Batch) -> Vec<Tile> {
+    let mut tiles = Vec::new();
+    for (number, job) in batch.jobs.iter().enumerate() {
+        let is_list = job.is_list == 1;
+        let runs = if is_list { vec![0..1] } else { batch.runs(job.first_column, job.columns) };
+        for run in runs {
+            for first_line in run.clone().step_by(TILE as usize) {
+                let lines = (run.end - first_line).min(TILE);
+                let rows = (TILE / lines).max(1);
+                tiles.extend((0..job.rows).step_by(rows as usize).map(|start| Tile {
+                    job: number as u32,
+                    start,
+                    end: (start + rows).min(job.rows),
+                    first_line,
+                    lines,
+                    ..Tile::default()
+                }));
+            }
+        }
+    }
+    tiles
+}
