@@ -23,7 +23,7 @@ fn main(
         let j = select(tile.first_line + k % tile.lines, i, is_list);
         let row = lines[job.first_row + i];
         let column = lines[job.first_column + j];
-        let base = job.scratch + (i * job.scratch_columns + select(column.first, 0u, is_list)) * KINDS;
+        let base = (job.scratch + i * job.scratch_columns + select(column.first, 0u, is_list)) * KINDS;
         var jet: Jet;
         for (var kind = 0u; kind < KINDS; kind++) {
             for (var m = 0u; m <= column.degree; m++) {

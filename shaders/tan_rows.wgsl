@@ -26,7 +26,7 @@ fn main(
             triangle[m] = control[job.control + (row.first + m) * job.control_columns + column];
         }
         let sums = de_boor(row.knots, row.degree, row.t);
-        let goal = job.scratch + k * KINDS;
+        let goal = (job.scratch + k) * KINDS;
         scratch[goal] = sums.value;
         if KINDS > 1u {
             scratch[goal + 1u] = sums.first;

@@ -93,7 +93,7 @@ pub(crate) struct Batch {
     /// Normalized knots, behind each other (not for Bézier).
     pub knots: Vec<f32>,
     pub points: usize,
-    /// Largest order (degree + 1).
+    /// Room for the largest order (degree + 1): a power of two.
     pub width: usize,
     /// Vectors that a first pass leaves for a second one, times the kinds of derivatives.
     pub scratch: usize,
@@ -126,7 +126,7 @@ pub(crate) fn batches<'a>(
         while start < count {
             let end = (start + rows).min(count);
             let piece = Piece { request: index, shape: request.shape, net, places: &request.places, range: start..end };
-            let width = net.degrees[0].max(net.degrees[1]) as u64 + 1;
+            let width = (net.degrees[0].max(net.degrees[1]) as u64 + 1).next_power_of_two();
             let grown = sums.with(&piece, own, fixed, width);
             if !open.is_empty() && grown.exceeds(limit) {
                 out.push(std::mem::take(&mut open));
@@ -209,6 +209,8 @@ impl Batch {
             last = Some((std::ptr::from_ref(piece.shape), placed));
             batch.add(piece, placed, backend);
         }
+        // Each width is a pipeline of its own: few of them do.
+        batch.width = batch.width.next_power_of_two().max(4);
         batch
     }
 

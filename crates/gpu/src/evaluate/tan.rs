@@ -15,9 +15,7 @@ pub(super) fn encode(
     out: &wgpu::Buffer,
 ) {
     let kinds = quantities.kinds() as u32;
-    // Private memory is reserved for the largest order: a few sizes do.
-    let order = [4, 8, 16, 32, 64].into_iter().find(|&size| batch.width <= size).unwrap_or(128) as u32;
-    let key = |name| Key::new(name, "main").with("KINDS", kinds).with_literal("MAX_ORDER", order);
+    let key = |name| Key::new(name, "main").with("KINDS", kinds).with_literal("MAX_ORDER", batch.width as u32);
     let lines = gpu.upload("lines", &batch.lines);
     let jobs = gpu.upload("jobs", &batch.jobs);
     let knots = gpu.upload("knots", &batch.knots);

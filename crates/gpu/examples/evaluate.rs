@@ -1,0 +1,78 @@
+//! Evaluates all faces of a STEP or IGES file with every backend: points per second and the largest difference to f64.
+//!
+//! ```sh
+//! cargo run --release -p trimloop-gpu --example evaluate -- fixtures/cadquery/plate_with_hole.step
+//! ```
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::Context;
+use trimloop_gpu::{Backend, Evaluator, FaceShape, FaceShapes, Gpu, Places, Quantities, Request, Values};
+use trimloop_import::ImportOptions;
+use trimloop_trim::Tolerance;
+
+/// Points of a face, along u and along v.
+const GRID: usize = 64;
+
+fn main() -> anyhow::Result<()> {
+    let paths: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
+    anyhow::ensure!(!paths.is_empty(), "usage: evaluate FILE.step ...");
+    let gpu = Gpu::headless()?;
+    println!("device: {}{}", gpu.name(), if gpu.is_software() { " (software)" } else { "" });
+    let mut faces = Vec::new();
+    for path in &paths {
+        let model = trimloop_import::read(path, &ImportOptions::default())
+            .with_context(|| format!("reading {}", path.display()))?;
+        for part in &model.parts {
+            let tolerance = Tolerance { linear_mm: 0.01, angular_rad: 0.2 };
+            let all = FaceShapes::new(part, tolerance).faces.into_iter();
+            let lost = |face: usize, error| eprintln!("{}: face {face}: {error}", path.display());
+            faces.extend(all.enumerate().filter_map(|(k, face)| face.map_err(|e| lost(k, e)).ok()));
+        }
+    }
+    let exact = faces.iter().filter(|face| face.shape.is_nurbs()).count();
+    println!("{} faces, {exact} of them NURBS, {GRID} x {GRID} points each\n", faces.len());
+    println!("{:24} {:>14} {:>20} {:>16}", "backend", "points/s", "distance / size", "angle, degrees");
+    for backend in Backend::ALL {
+        run(&Evaluator::on_gpu(&gpu, backend), &faces)?;
+    }
+    Ok(())
+}
+
+fn run(evaluator: &Evaluator, faces: &[FaceShape]) -> anyhow::Result<()> {
+    let request = |face| {
+        let shape: &trimloop_gpu::Shape = face;
+        Request { shape, places: Places::even(shape, GRID, GRID) }
+    };
+    let requests: Vec<Request<'_>> = faces.iter().map(|face| request(&face.shape)).collect();
+    // The first run of a pipeline compiles it.
+    evaluator.evaluate(&requests, Quantities::Normals)?;
+    let start = Instant::now();
+    let all = evaluator.evaluate(&requests, Quantities::Normals)?;
+    let seconds = start.elapsed().as_secs_f64();
+    let points: usize = all.iter().map(Values::len).sum();
+    let worst = requests.iter().zip(&all).map(|(request, values)| differences(request, values));
+    let worst = worst.fold([0.0; 2], |a: [f64; 2], b| [a[0].max(b[0]), a[1].max(b[1])]);
+    let rate = points as f64 / seconds;
+    println!("{:24} {rate:>14.3e} {:>20.2e} {:>16.5}", evaluator.backend().name(), worst[0], worst[1]);
+    Ok(())
+}
+
+/// Largest distance from the exact point over the face's size, and angle between normals away from singular points.
+fn differences(request: &Request<'_>, values: &Values) -> [f64; 2] {
+    let mut worst = [0.0f64; 2];
+    let size = request.shape.size();
+    for k in 0..values.len() {
+        let uv = request.places.uv(k);
+        let exact = request.shape.derivatives(uv);
+        worst[0] = worst[0].max(values.point(k).distance(exact.point) / size);
+        let [u, v] = request.shape.domain();
+        let is_regular =
+            exact.du.length() * u.length() > 1e-2 * size && exact.dv.length() * v.length() > 1e-2 * size;
+        if let Some(own) = values.normal(k).filter(|_| is_regular) {
+            worst[1] = worst[1].max(own.angle_between(request.shape.normal(uv)).to_degrees());
+        }
+    }
+    worst
+}
