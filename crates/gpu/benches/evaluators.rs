@@ -112,7 +112,8 @@ fn control_points(c: &mut Criterion) {
             let evaluator = Evaluator::on_gpu(&gpu, *backend);
             group.bench_function(backend.name(), |b| {
                 b.iter(|| {
-                    let values = evaluator.evaluate_on_device(&request, Quantities::Points).expect("evaluated");
+                    let values =
+                        evaluator.evaluate_on_device(&request, Quantities::Points).expect("evaluated");
                     gpu.wait("benchmark").expect("done");
                     values
                 });

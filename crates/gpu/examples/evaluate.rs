@@ -3,6 +3,8 @@
 //! ```sh
 //! cargo run --release -p trimloop-gpu --example evaluate -- fixtures/cadquery/plate_with_hole.step
 //! ```
+//!
+//! `--grid N` makes it N x N points per face instead of 64 x 64.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -12,11 +14,21 @@ use trimloop_gpu::{Backend, Evaluator, FaceShape, FaceShapes, Gpu, Places, Quant
 use trimloop_import::ImportOptions;
 use trimloop_trim::Tolerance;
 
-/// Points of a face, along u and along v.
-const GRID: usize = 64;
-
 fn main() -> anyhow::Result<()> {
-    let paths: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
+    let mut grid = 64;
+    let mut paths: Vec<PathBuf> = Vec::new();
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        if argument == "--grid" {
+            grid = arguments
+                .next()
+                .context("--grid needs a number")?
+                .parse()
+                .context("--grid needs a number")?;
+        } else {
+            paths.push(argument.into());
+        }
+    }
     anyhow::ensure!(!paths.is_empty(), "usage: evaluate FILE.step ...");
     let gpu = Gpu::headless()?;
     println!("device: {}{}", gpu.name(), if gpu.is_software() { " (software)" } else { "" });
@@ -32,18 +44,18 @@ fn main() -> anyhow::Result<()> {
         }
     }
     let exact = faces.iter().filter(|face| face.shape.is_nurbs()).count();
-    println!("{} faces, {exact} of them NURBS, {GRID} x {GRID} points each\n", faces.len());
+    println!("{} faces, {exact} of them NURBS, {grid} x {grid} points each\n", faces.len());
     println!("{:24} {:>14} {:>20} {:>16}", "backend", "points/s", "distance / size", "angle, degrees");
     for backend in Backend::ALL {
-        run(&Evaluator::on_gpu(&gpu, backend), &faces)?;
+        run(&Evaluator::on_gpu(&gpu, backend), &faces, grid)?;
     }
     Ok(())
 }
 
-fn run(evaluator: &Evaluator, faces: &[FaceShape]) -> anyhow::Result<()> {
+fn run(evaluator: &Evaluator, faces: &[FaceShape], grid: usize) -> anyhow::Result<()> {
     let request = |face| {
         let shape: &trimloop_gpu::Shape = face;
-        Request { shape, places: Places::even(shape, GRID, GRID) }
+        Request { shape, places: Places::even(shape, grid, grid) }
     };
     let requests: Vec<Request<'_>> = faces.iter().map(|face| request(&face.shape)).collect();
     // The first run of a pipeline compiles it.

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use glam::{DVec2, Vec3, Vec4};
+use trimloop_geom::Interval;
 
 use crate::shape::{Bezier, Facet, Net};
 use crate::{Backend, Places, Quantities, Request, Shape};
@@ -125,7 +126,13 @@ pub(crate) fn batches<'a>(
         let mut start = 0;
         while start < count {
             let end = (start + rows).min(count);
-            let piece = Piece { request: index, shape: request.shape, net, places: &request.places, range: start..end };
+            let piece = Piece {
+                request: index,
+                shape: request.shape,
+                net,
+                places: &request.places,
+                range: start..end,
+            };
             let width = (net.degrees[0].max(net.degrees[1]) as u64 + 1).next_power_of_two();
             let grown = sums.with(&piece, own, fixed, width);
             if !open.is_empty() && grown.exceeds(limit) {
@@ -223,7 +230,13 @@ impl Batch {
             self.control.extend(&bezier.control);
             self.facets.extend(&bezier.facets);
             let facet_columns = bezier.breaks[1].len() as u32 - 1;
-            return Placed { control, control_columns: bezier.columns as u32, facet, facet_columns, knots: [0; 2] };
+            return Placed {
+                control,
+                control_columns: bezier.columns as u32,
+                facet,
+                facet_columns,
+                knots: [0; 2],
+            };
         }
         self.control.extend(net.points.iter().map(|p| p.as_vec4()));
         let middle = DVec2::from(piece.shape.domain().map(|d| d.at(0.5)));
@@ -319,12 +332,23 @@ fn inward(net: &Net, d: usize, t: f64) -> f32 {
     if t <= net.domain(d).at(0.5) { 1.0 } else { -1.0 }
 }
 
+/// Spans shorter than this share of the domain are passed over for a neighbour: single precision shows nothing in them.
+const SHORTEST: f64 = 1e-8;
+
+/// The nearest span from `span` on that is long enough.
+fn usable_span(ends: &[f64], span: usize, domain: f64) -> usize {
+    let is_usable = |k: &usize| ends[k + 1] - ends[*k] > SHORTEST * domain;
+    let ahead = (span..ends.len() - 1).find(is_usable);
+    ahead.or_else(|| (0..span).rev().find(is_usable)).unwrap_or(span)
+}
+
 fn bezier_line(net: &Net, bezier: &Bezier, d: usize, u: f64) -> Line {
     let degree = net.degrees[d];
     let [t, slope, bend] = net.maps[d].at(u);
-    let t = net.domain(d).clamp(t);
     let breaks = &bezier.breaks[d];
     let span = breaks[1..breaks.len() - 1].partition_point(|&end| end <= t);
+    let span = usable_span(breaks, span, net.domain(d).length());
+    let t = Interval::new(breaks[span], breaks[span + 1]).clamp(t);
     let length = breaks[span + 1] - breaks[span];
     let shares = [(t - breaks[span]) / length, (breaks[span + 1] - t) / length];
     let is_backward = shares[0] > shares[1];
@@ -348,8 +372,10 @@ fn knot_line(net: &Net, d: usize, u: f64, first_knot: u32) -> Line {
     let degree = net.degrees[d];
     let [t, slope, bend] = net.maps[d].at(u);
     let domain = net.domain(d);
-    let t = domain.clamp(t);
-    let first = (net.span(d, t) - degree) as u32;
+    let inner = &net.knots[d][degree..=net.shape[d]];
+    let span = usable_span(inner, net.span(d, domain.clamp(t)) - degree, domain.length());
+    let t = Interval::new(inner[span], inner[span + 1]).clamp(t);
+    let first = span as u32;
     let length = domain.length();
     Line {
         first,

@@ -122,8 +122,9 @@ impl Gpu {
         work: impl FnOnce() -> Result<T, GpuError>,
     ) -> Result<T, GpuError> {
         let device = &self.0.device;
-        let scopes = [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::Internal, wgpu::ErrorFilter::OutOfMemory]
-            .map(|filter| device.push_error_scope(filter));
+        let scopes =
+            [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::Internal, wgpu::ErrorFilter::OutOfMemory]
+                .map(|filter| device.push_error_scope(filter));
         let done = work();
         let errors = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop()));
         let first = errors.reduce(|first, _| first);
@@ -131,7 +132,9 @@ impl Gpu {
         let lost = self.0.lost.lock().unwrap_or_else(PoisonError::into_inner).clone();
         match (lost, first) {
             (Some(reason), _) => Err(GpuError::Lost { request: request(), reason }),
-            (None, Some(wgpu::Error::OutOfMemory { .. })) => Err(GpuError::OutOfMemory { request: request() }),
+            (None, Some(wgpu::Error::OutOfMemory { .. })) => {
+                Err(GpuError::OutOfMemory { request: request() })
+            }
             (None, Some(error)) => Err(GpuError::Refused { request: request(), reason: error.to_string() }),
             (None, None) => done,
         }

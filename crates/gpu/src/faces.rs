@@ -50,7 +50,8 @@ impl FaceShape {
         };
         let (low, high) = domain.uv_bounds();
         let extent = [Interval::new(low.x, high.x), Interval::new(low.y, high.y)];
-        let shape = Shape::surface(surface, extent).ok_or(TrimError::Winding("the trim loops enclose nothing"))?;
+        let shape =
+            Shape::surface(surface, extent).ok_or(TrimError::Winding("the trim loops enclose nothing"))?;
         Ok(Self { face, shape, domain })
     }
 }

@@ -67,16 +67,12 @@ impl Kind {
         let y = 1.0 - x;
         let ([a, da], [b, db], whole) = match self {
             Self::Linear => return [x, 1.0, 0.0],
-            Self::Circular(t) => (
-                [(x * t).sin(), t * (x * t).cos()],
-                [(y * t).sin(), -t * (y * t).cos()],
-                t * t.sin(),
-            ),
-            Self::Hyperbolic(t) => (
-                [(x * t).sinh(), t * (x * t).cosh()],
-                [(y * t).sinh(), -t * (y * t).cosh()],
-                t * t.sinh(),
-            ),
+            Self::Circular(t) => {
+                ([(x * t).sin(), t * (x * t).cos()], [(y * t).sin(), -t * (y * t).cos()], t * t.sin())
+            }
+            Self::Hyperbolic(t) => {
+                ([(x * t).sinh(), t * (x * t).cosh()], [(y * t).sinh(), -t * (y * t).cosh()], t * t.sinh())
+            }
         };
         let sum = a + b;
         let slope = whole / (sum * sum);

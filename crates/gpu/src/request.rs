@@ -107,7 +107,12 @@ pub struct Values {
 pub(crate) enum Data {
     /// As the device wrote it, relative to an origin.
     Single { origin: DVec3, vectors: Vec<Vec4> },
-    Double { points: Vec<DVec3>, normals: Vec<DVec3>, derivatives: Vec<Derivatives>, curvatures: Vec<[f64; 4]> },
+    Double {
+        points: Vec<DVec3>,
+        normals: Vec<DVec3>,
+        derivatives: Vec<Derivatives>,
+        curvatures: Vec<[f64; 4]>,
+    },
 }
 
 impl Values {
@@ -186,7 +191,10 @@ impl Values {
     pub(crate) fn append(&mut self, other: Self) {
         match (&mut self.data, other.data) {
             (Data::Single { vectors, .. }, Data::Single { vectors: more, .. }) => vectors.extend(more),
-            (Data::Double { points, normals, derivatives, curvatures }, Data::Double { points: p, normals: n, derivatives: d, curvatures: c }) => {
+            (
+                Data::Double { points, normals, derivatives, curvatures },
+                Data::Double { points: p, normals: n, derivatives: d, curvatures: c },
+            ) => {
                 points.extend(p);
                 normals.extend(n);
                 derivatives.extend(d);

@@ -221,10 +221,7 @@ impl Net {
     fn to_bezier(&self, normal: impl Fn(DVec2) -> DVec3) -> Bezier {
         let origin_of = |p: DVec4| p.truncate() / p.w;
         let patches = self.patches();
-        let breaks = [
-            ends(patches.iter().map(|p| p.domain[0])),
-            ends(patches.iter().map(|p| p.domain[1])),
-        ];
+        let breaks = [ends(patches.iter().map(|p| p.domain[0])), ends(patches.iter().map(|p| p.domain[1]))];
         let [order_u, order_v] = self.degrees.map(|degree| degree + 1);
         let (rows, columns) = (breaks[0].len() - 1, breaks[1].len() - 1);
         let width = columns * order_v;

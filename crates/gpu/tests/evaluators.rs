@@ -132,7 +132,8 @@ fn curves_of_every_kind() {
 #[test]
 fn curvatures_of_a_torus_are_those_of_its_closed_form() {
     let Some(gpu) = gpu() else { return };
-    let surface = trimloop_geom::Surface::Torus { frame: Frame::WORLD, major: 9.0, minor: 2.0, v_range: None };
+    let surface =
+        trimloop_geom::Surface::Torus { frame: Frame::WORLD, major: 9.0, minor: 2.0, v_range: None };
     let turn = Interval::new(0.0, std::f64::consts::TAU);
     let shape = Shape::surface(&surface, [turn, turn]).expect("finite");
     for evaluator in [Evaluator::on_cpu(), Evaluator::on_gpu(gpu, Backend::Bezier)] {
@@ -175,6 +176,7 @@ fn one_row_too_long_is_an_error_that_names_it() {
     let shape = whole(sheet([3, 3], 2, 1.0));
     let places = Places::even(&shape, 1, 2_000_000);
     let evaluator = Evaluator::on_gpu(gpu, Backend::Bezier);
-    let error = evaluator.evaluate(&[Request { shape: &shape, places }], Quantities::Second).expect_err("too much");
+    let error =
+        evaluator.evaluate(&[Request { shape: &shape, places }], Quantities::Second).expect_err("too much");
     assert!(error.to_string().contains("evaluate 2000000 points"), "{error}");
 }

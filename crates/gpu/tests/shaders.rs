@@ -12,9 +12,10 @@ fn every_shader_is_portable() {
             .validate(&module)
             .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(&source)));
         // Browsers guarantee 8 storage buffers per stage and 16 KiB of workgroup memory.
-        let storage = module.global_variables.iter().filter(|(_, variable)| {
-            matches!(variable.space, naga::AddressSpace::Storage { .. })
-        });
+        let storage = module
+            .global_variables
+            .iter()
+            .filter(|(_, variable)| matches!(variable.space, naga::AddressSpace::Storage { .. }));
         assert!(storage.count() <= 8, "{name} has too many storage buffers");
         let shared = module.global_variables.iter().filter(|(_, v)| v.space == naga::AddressSpace::WorkGroup);
         let mut layouter = naga::proc::Layouter::default();

@@ -30,7 +30,8 @@ pub(super) fn encode(
     let kinds = quantities.kinds() as u32;
     let grids = grid_tiles(batch, CAPACITY / kinds);
     if !grids.is_empty() {
-        let key = Key::new("bezier_grid", "main").with("WIDTH", width).with("STRIDE", stride).with("KINDS", kinds);
+        let key =
+            Key::new("bezier_grid", "main").with("WIDTH", width).with("STRIDE", stride).with("KINDS", kinds);
         let tiles = gpu.upload("tiles", &grids);
         gpu.dispatch(encoder, &key, &[&jobs, &tiles, &lines, &basis, &control, &facets, out], grids.len());
     }

@@ -43,9 +43,7 @@ fn basis(
     let lanes = if layout == Backend::KrishnamurthyPacked { 4 } else { 1 };
     let rows = batch.lines.len().div_ceil(lanes);
     let (knots, shader) = match layout {
-        Backend::KrishnamurthyPacked => {
-            (gpu.upload("knots", &packed_knots(batch)), "krishnamurthy_packed")
-        }
+        Backend::KrishnamurthyPacked => (gpu.upload("knots", &packed_knots(batch)), "krishnamurthy_packed"),
         Backend::KrishnamurthyIndexed => (gpu.upload("knots", &batch.knots), "krishnamurthy_indexed"),
         _ => (gpu.upload("knots", &unpacked_knots(batch)), "krishnamurthy_unpacked"),
     };

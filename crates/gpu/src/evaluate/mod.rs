@@ -83,7 +83,11 @@ impl Evaluator {
     ///
     /// # Errors
     /// What the device refuses; see [`GpuError`].
-    pub fn evaluate(&self, requests: &[Request<'_>], quantities: Quantities) -> Result<Vec<Values>, GpuError> {
+    pub fn evaluate(
+        &self,
+        requests: &[Request<'_>],
+        quantities: Quantities,
+    ) -> Result<Vec<Values>, GpuError> {
         let Some(gpu) = self.gpu.as_ref().filter(|_| self.backend != Backend::Cpu) else {
             return Ok(requests.iter().map(|request| cpu::values(request, quantities)).collect());
         };
@@ -94,7 +98,8 @@ impl Evaluator {
             let bytes = (pieces.iter().map(Piece::points).sum::<usize>() * quantities.stride() * 16) as u64;
             let vectors: Vec<Vec4> = gpu.download(&name, &batch.buffer, bytes)?;
             for piece in &batch.pieces {
-                let range = piece.offset * quantities.stride()..(piece.offset + piece.points) * quantities.stride();
+                let range =
+                    piece.offset * quantities.stride()..(piece.offset + piece.points) * quantities.stride();
                 let origin = requests[piece.request].shape.origin();
                 let data = Data::Single { origin, vectors: vectors[range].to_vec() };
                 let values = Values { quantities, data };

@@ -15,7 +15,8 @@ pub(super) fn encode(
     out: &wgpu::Buffer,
 ) {
     let kinds = quantities.kinds() as u32;
-    let key = |name| Key::new(name, "main").with("KINDS", kinds).with_literal("MAX_ORDER", batch.width as u32);
+    let key =
+        |name| Key::new(name, "main").with("KINDS", kinds).with_literal("MAX_ORDER", batch.width as u32);
     let lines = gpu.upload("lines", &batch.lines);
     let jobs = gpu.upload("jobs", &batch.jobs);
     let knots = gpu.upload("knots", &batch.knots);

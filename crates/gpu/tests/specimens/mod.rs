@@ -79,11 +79,14 @@ pub fn specimens() -> Vec<(&'static str, Shape)> {
         ("plane", of(Surface::Plane { frame: far }, Interval::new(-3.0, 7.0), Interval::new(1.0, 2.0))),
         ("cylinder", of(Surface::Cylinder { frame: far, radius: 5.0 }, turn, Interval::new(0.0, 40.0))),
         ("thin cylinder", of(Surface::Cylinder { frame: far, radius: 0.05 }, turn, Interval::new(0.0, 40.0))),
-        ("cone to its apex", of(
-            Surface::Cone { frame: far, radius: 5.0, half_angle_rad: 0.5 },
-            Interval::new(0.3, 4.0),
-            Interval::new(-5.0 / 0.5f64.tan(), 10.0),
-        )),
+        (
+            "cone to its apex",
+            of(
+                Surface::Cone { frame: far, radius: 5.0, half_angle_rad: 0.5 },
+                Interval::new(0.3, 4.0),
+                Interval::new(-5.0 / 0.5f64.tan(), 10.0),
+            ),
+        ),
         ("sphere", of(Surface::Sphere { frame: far, radius: 5.0 }, turn, Interval::new(-pole, pole))),
         ("torus", of(Surface::Torus { frame: far, major: 9.0, minor: 2.0, v_range: None }, turn, turn)),
     ]
