@@ -173,6 +173,16 @@ impl Gpu {
         })
     }
 
+    /// A buffer that textures are copied into.
+    pub(crate) fn reserve_for_copies(&self, label: &str, bytes: u64) -> wgpu::Buffer {
+        self.0.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: bytes,
+            usage: wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    }
+
     /// The content of a buffer, as soon as what was submitted is done.
     pub(crate) fn download<T: bytemuck::Pod>(
         &self,

@@ -22,6 +22,8 @@ mod parameter;
 mod request;
 pub mod shaders;
 mod shape;
+mod trim_classify;
+mod trim_fan;
 
 pub use device::Gpu;
 pub use error::GpuError;
@@ -29,3 +31,5 @@ pub use evaluate::{DeviceBatch, DevicePiece, DeviceValues, Evaluator};
 pub use faces::{FaceShape, FaceShapes};
 pub use request::{Backend, Places, Quantities, Request, Values};
 pub use shape::Shape;
+pub use trim_classify::TrimTable;
+pub use trim_fan::{CHANNELS, TrimFans, TrimTexture, trim_textures};

@@ -27,6 +27,8 @@ const SHADERS: &[(&str, &[&str])] = &[
     shader!("krishnamurthy_packed", "line", "krishnamurthy"),
     shader!("krishnamurthy_indexed", "line", "krishnamurthy"),
     shader!("tensor_points", "line", "job", "basis", "finish", "write"),
+    shader!("trim_classify", "trim"),
+    shader!("trim_fan"),
     shader!("tan_rows", "line", "job", "de_boor"),
     shader!("tan_columns", "line", "job", "de_boor", "finish", "write"),
 ];

@@ -37,10 +37,10 @@ struct Segment {
 }
 
 #[derive(Clone, Copy)]
-struct EdgePiece {
-    edge: u32,
-    from: f64,
-    to: f64,
+pub(crate) struct EdgePiece {
+    pub edge: u32,
+    pub from: f64,
+    pub to: f64,
 }
 
 impl<'a> Classifier<'a> {
@@ -115,7 +115,7 @@ fn foot_between(curve: &Curve, point: DVec3, piece: EdgePiece) -> Option<f64> {
 }
 
 /// The edge's piece between each pair of neighbouring samples, both ways; seams keep either.
-fn pieces_by_points(
+pub(crate) fn pieces_by_points(
     part: &Part,
     face: FaceId,
     samples: &EdgeSamples,

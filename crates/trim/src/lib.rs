@@ -7,6 +7,7 @@
 mod band;
 mod chord;
 mod classify;
+pub mod curves;
 mod cut;
 mod domain;
 mod edge_samples;

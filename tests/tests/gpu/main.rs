@@ -1,6 +1,7 @@
 //! Fixtures on the graphics device.
 
 mod evaluators;
+mod trim;
 
 use std::sync::OnceLock;
 
