@@ -24,6 +24,7 @@ pub mod shaders;
 mod shape;
 mod trim_classify;
 mod trim_fan;
+mod wavelet;
 
 pub use device::Gpu;
 pub use error::GpuError;
@@ -33,3 +34,4 @@ pub use request::{Backend, Places, Quantities, Request, Values};
 pub use shape::Shape;
 pub use trim_classify::TrimTable;
 pub use trim_fan::{CHANNELS, TrimFans, TrimTexture, trim_textures};
+pub use wavelet::{Pyramid, Wavelet};

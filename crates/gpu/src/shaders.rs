@@ -29,6 +29,10 @@ const SHADERS: &[(&str, &[&str])] = &[
     shader!("tensor_points", "line", "job", "basis", "finish", "write"),
     shader!("trim_classify", "trim"),
     shader!("trim_fan"),
+    shader!("haar_down", "wavelet"),
+    shader!("haar_up", "wavelet"),
+    shader!("lifting_down", "wavelet"),
+    shader!("lifting_up", "wavelet"),
     shader!("tan_rows", "line", "job", "de_boor"),
     shader!("tan_columns", "line", "job", "de_boor", "finish", "write"),
 ];

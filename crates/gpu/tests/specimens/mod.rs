@@ -1,4 +1,5 @@
 //! Shapes that evaluation must cope with, and the device that tests run on.
+#![allow(dead_code, reason = "each test uses some of it")]
 
 use std::sync::OnceLock;
 
