@@ -207,7 +207,7 @@ impl Values {
 }
 
 /// An evaluator's name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Backend {
     /// f64 on all cores.
     Cpu,
@@ -220,6 +220,7 @@ pub enum Backend {
     /// Tan, Zhao, Lu 2012: de Boor's algorithm, rows then columns.
     Tan,
     /// Bézier facets in workgroup memory.
+    #[default]
     Bezier,
 }
 
@@ -244,12 +245,6 @@ impl Backend {
             Self::Tan => "tan",
             Self::Bezier => "bezier",
         }
-    }
-}
-
-impl Default for Backend {
-    fn default() -> Self {
-        Self::Bezier
     }
 }
 

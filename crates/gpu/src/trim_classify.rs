@@ -35,7 +35,8 @@ impl TrimTable {
         let (low, high) =
             points().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
         let extent = high - low;
-        if !(extent.is_finite() && extent.cmpgt(DVec2::ZERO).all()) || !points().all(DVec2::is_finite) {
+        let is_finite = extent.is_finite() && points().all(DVec2::is_finite);
+        if !(is_finite && extent.cmpgt(DVec2::ZERO).all()) {
             return Err(GpuError::Request("the trim curves enclose nothing".to_owned()));
         }
         let unit = |p: DVec2| ((p - low) / extent).as_vec2().as_dvec2();

@@ -39,7 +39,8 @@ fn row_tiles(batch: &Batch) -> Vec<Tile> {
     let mut tiles = Vec::new();
     for (number, job) in batch.jobs.iter().enumerate() {
         // In a list every point brings its own knots.
-        let runs = if job.is_list == 1 { vec![0..job.rows] } else { batch.runs(job.first_row, job.rows) };
+        let whole = 0..job.rows;
+        let runs = if job.is_list == 1 { vec![whole] } else { batch.runs(job.first_row, job.rows) };
         for run in runs {
             let (start, end) = (run.start * job.scratch_columns, run.end * job.scratch_columns);
             tiles.extend((start..end).step_by(TILE as usize).map(|start| Tile {
@@ -58,7 +59,8 @@ fn column_tiles(batch: &Batch) -> Vec<Tile> {
     let mut tiles = Vec::new();
     for (number, job) in batch.jobs.iter().enumerate() {
         let is_list = job.is_list == 1;
-        let runs = if is_list { vec![0..1] } else { batch.runs(job.first_column, job.columns) };
+        let one = 0..1;
+        let runs = if is_list { vec![one] } else { batch.runs(job.first_column, job.columns) };
         for run in runs {
             for first_line in run.clone().step_by(TILE as usize) {
                 let lines = (run.end - first_line).min(TILE);
