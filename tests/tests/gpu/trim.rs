@@ -60,7 +60,7 @@ fn wrong_texels(name: &str, part: &Part, shapes: &FaceShapes, face: &FaceShape) 
     let twin: Vec<bool> = centres.iter().map(|&uv| table.contains(uv)).collect();
     let mut out = Vec::new();
     // The device is asked about some faces; the twin does the same about all.
-    if let Some(gpu) = gpu().filter(|_| face.face % 8 == 0) {
+    if let Some(gpu) = gpu().filter(|_| face.face.is_multiple_of(8)) {
         let on_device = table.classify(gpu, &centres).expect("classified");
         for (k, (&device, &twin)) in on_device.iter().zip(&twin).enumerate() {
             if device != twin && boundary_distance(part, shapes, face, centres[k]) > ALLOWED {
