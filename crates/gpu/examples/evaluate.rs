@@ -74,7 +74,8 @@ fn run(evaluator: &Evaluator, faces: &[FaceShape], grid: usize) -> anyhow::Resul
 /// Largest distance from the exact point over the face's size, and angle between normals away from singular points.
 fn differences(request: &Request<'_>, values: &Values) -> [f64; 2] {
     let mut worst = [0.0f64; 2];
-    let size = request.shape.size();
+    // A face can be a single point.
+    let size = request.shape.size().max(f64::MIN_POSITIVE);
     for k in 0..values.len() {
         let uv = request.places.uv(k);
         let exact = request.shape.derivatives(uv);

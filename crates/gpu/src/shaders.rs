@@ -29,6 +29,7 @@ const SHADERS: &[(&str, &[&str])] = &[
     shader!("tensor_points", "line", "job", "basis", "finish", "write"),
     shader!("trim_classify", "trim"),
     shader!("trim_fan"),
+    shader!("lod_factors"),
     shader!("haar_down", "wavelet"),
     shader!("haar_up", "wavelet"),
     shader!("lifting_down", "wavelet"),
