@@ -180,3 +180,29 @@ fn one_row_too_long_is_an_error_that_names_it() {
         evaluator.evaluate(&[Request { shape: &shape, places }], Quantities::Second).expect_err("too much");
     assert!(error.to_string().contains("evaluate 2000000 points"), "{error}");
 }
+
+/// The error at high degrees, as a table: Bernstein polynomials keep their precision, knots in single precision do not.
+#[test]
+fn degrees_up_to_a_hundred() {
+    let Some(gpu) = gpu() else { return };
+    println!("{:24} {:>12} {:>12} {:>12} {:>12}", "distance / size at", "10", "20", "50", "100");
+    let shapes = [10, 20, 50, 100].map(|degree| whole(sheet([degree, degree], 2, 2.0)));
+    for backend in Backend::ALL {
+        let evaluator = Evaluator::on_gpu(gpu, backend);
+        let requests: Vec<Request<'_>> =
+            shapes.iter().map(|shape| Request { shape, places: Places::even(shape, 23, 19) }).collect();
+        let all = evaluator.evaluate(&requests, Quantities::Points).expect("evaluated");
+        let off = |(request, values): (&Request<'_>, &Values)| {
+            let exact = |k: usize| request.shape.derivatives(request.places.uv(k)).point;
+            let distances = (0..values.len()).map(|k| values.point(k).distance(exact(k)));
+            distances.fold(0.0, f64::max) / request.shape.size()
+        };
+        let found: Vec<f64> = requests.iter().zip(&all).map(off).collect();
+        let row: Vec<String> = found.iter().map(|off| format!("{off:>12.2e}")).collect();
+        println!("{:24} {}", backend.name(), row.join(" "));
+        for (off, degree) in found.iter().zip([10, 20, 50, 100]) {
+            let allowed = if backend == Backend::Bezier { 1e-6 } else { 1e-3 };
+            assert!(*off <= allowed, "{} at degree {degree}: {off}", backend.name());
+        }
+    }
+}

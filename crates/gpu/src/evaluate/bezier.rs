@@ -8,8 +8,14 @@ use crate::{Gpu, Quantities};
 const CAPACITY: u32 = 768;
 /// Points of a tile.
 const TILE: u32 = 1024;
+/// Turns of all loops of an invocation together: llvmpipe breaks them off beyond 65535 (and says nothing).
+pub(super) const LONGEST_LOOP: u32 = 32_768;
+
 /// Points of a workgroup that goes point by point.
-pub(super) const POINTS: usize = 256;
+pub(super) fn points_of_workgroup(batch: &Batch) -> usize {
+    let width = batch.width as u32;
+    64 * (LONGEST_LOOP / (width * width)).clamp(1, 4) as usize
+}
 
 pub(super) fn encode(
     gpu: &Gpu,
@@ -35,7 +41,7 @@ pub(super) fn encode(
         let tiles = gpu.upload("tiles", &grids);
         gpu.dispatch(encoder, &key, &[&jobs, &tiles, &lines, &basis, &control, &facets, out], grids.len());
     }
-    let mut lists = batch.point_tiles(POINTS);
+    let mut lists = batch.point_tiles(points_of_workgroup(batch));
     lists.retain(|tile| batch.jobs[tile.job as usize].is_list == 1);
     if !lists.is_empty() {
         let key = Key::new("tensor_points", "main").with("WIDTH", width).with("STRIDE", stride);

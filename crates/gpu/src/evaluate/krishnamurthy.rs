@@ -2,7 +2,7 @@
 
 use glam::Vec4;
 
-use super::bezier::POINTS;
+use super::bezier::points_of_workgroup;
 use crate::batch::Batch;
 use crate::device::Key;
 use crate::{Backend, Gpu, Quantities};
@@ -22,7 +22,7 @@ pub(super) fn encode(
     let jobs = gpu.upload("jobs", &batch.jobs);
     let control = gpu.upload("control points", &batch.control);
     let facets = gpu.upload("facets", &batch.facets);
-    let tiles = batch.point_tiles(POINTS);
+    let tiles = batch.point_tiles(points_of_workgroup(batch));
     let key = Key::new("tensor_points", "main")
         .with("WIDTH", width)
         .with("STRIDE", quantities.stride() as u32)

@@ -1,11 +1,15 @@
 //! Tan, Zhao, Lu 2012: de Boor's algorithm in one pass over the rows and one over the columns, region by region.
 
+use super::bezier::LONGEST_LOOP;
 use crate::batch::{Batch, Tile};
 use crate::device::Key;
 use crate::{Gpu, Quantities};
 
 /// Elements of a workgroup.
-const TILE: u32 = 1024;
+fn tile_size(batch: &Batch, kinds: u32) -> u32 {
+    let width = batch.width as u32;
+    64 * (LONGEST_LOOP / (kinds * width * (width + 3) / 2)).clamp(1, 16)
+}
 
 pub(super) fn encode(
     gpu: &Gpu,
@@ -24,18 +28,18 @@ pub(super) fn encode(
     let facets = gpu.upload("facets", &batch.facets);
     let scratch = gpu.reserve("rows", 16 * (batch.scratch * quantities.kinds()) as u64);
 
-    let rows = row_tiles(batch);
+    let rows = row_tiles(batch, tile_size(batch, 1));
     let tiles = gpu.upload("tiles", &rows);
     gpu.dispatch(encoder, &key("tan_rows"), &[&jobs, &tiles, &lines, &knots, &control, &scratch], rows.len());
 
-    let columns = column_tiles(batch);
+    let columns = column_tiles(batch, tile_size(batch, kinds));
     let tiles = gpu.upload("tiles", &columns);
     let key = key("tan_columns").with("STRIDE", quantities.stride() as u32);
     gpu.dispatch(encoder, &key, &[&jobs, &tiles, &lines, &knots, &scratch, &facets, out], columns.len());
 }
 
 /// Elements (lines times control columns) whose lines lie in one span along u.
-fn row_tiles(batch: &Batch) -> Vec<Tile> {
+fn row_tiles(batch: &Batch, tile: u32) -> Vec<Tile> {
     let mut tiles = Vec::new();
     for (number, job) in batch.jobs.iter().enumerate() {
         // In a list every point brings its own knots.
@@ -43,10 +47,10 @@ fn row_tiles(batch: &Batch) -> Vec<Tile> {
         let runs = if job.is_list == 1 { vec![whole] } else { batch.runs(job.first_row, job.rows) };
         for run in runs {
             let (start, end) = (run.start * job.scratch_columns, run.end * job.scratch_columns);
-            tiles.extend((start..end).step_by(TILE as usize).map(|start| Tile {
+            tiles.extend((start..end).step_by(tile as usize).map(|start| Tile {
                 job: number as u32,
                 start,
-                end: (start + TILE).min(end),
+                end: (start + tile).min(end),
                 ..Tile::default()
             }));
         }
@@ -55,16 +59,16 @@ fn row_tiles(batch: &Batch) -> Vec<Tile> {
 }
 
 /// Points whose columns lie in one span along v.
-fn column_tiles(batch: &Batch) -> Vec<Tile> {
+fn column_tiles(batch: &Batch, tile: u32) -> Vec<Tile> {
     let mut tiles = Vec::new();
     for (number, job) in batch.jobs.iter().enumerate() {
         let is_list = job.is_list == 1;
         let one = 0..1;
         let runs = if is_list { vec![one] } else { batch.runs(job.first_column, job.columns) };
         for run in runs {
-            for first_line in run.clone().step_by(TILE as usize) {
-                let lines = (run.end - first_line).min(TILE);
-                let rows = (TILE / lines).max(1);
+            for first_line in run.clone().step_by(tile as usize) {
+                let lines = (run.end - first_line).min(tile);
+                let rows = (tile / lines).max(1);
                 tiles.extend((0..job.rows).step_by(rows as usize).map(|start| Tile {
                     job: number as u32,
                     start,
