@@ -1,14 +1,6 @@
 // A tile of a grid over Bezier facets: the control points are reduced along u once per row into workgroup memory, then
 // every point of the tile sums along v.
 
-@group(0) @binding(0) var<storage, read> jobs: array<Job>;
-@group(0) @binding(1) var<storage, read> tiles: array<Tile>;
-@group(0) @binding(2) var<storage, read> lines: array<Line>;
-@group(0) @binding(3) var<storage, read> basis: array<f32>;
-@group(0) @binding(4) var<storage, read> control: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> facets: array<Facet>;
-@group(0) @binding(6) var<storage, read_write> out: array<vec4<f32>>;
-
 // Derivatives along u that are kept: 1 none, 2 the first, 3 the second too.
 override KINDS: u32 = 2u;
 

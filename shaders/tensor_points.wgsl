@@ -1,14 +1,6 @@
 // Point by point, the tensor product over the control points at the span: Krishnamurthy et al. 2009, section 6 (with a
 // loop where the fragment programs of the time needed a pass per control point), and lists over Bezier facets.
 
-@group(0) @binding(0) var<storage, read> jobs: array<Job>;
-@group(0) @binding(1) var<storage, read> tiles: array<Tile>;
-@group(0) @binding(2) var<storage, read> lines: array<Line>;
-@group(0) @binding(3) var<storage, read> basis: array<f32>;
-@group(0) @binding(4) var<storage, read> control: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read> facets: array<Facet>;
-@group(0) @binding(6) var<storage, read_write> out: array<vec4<f32>>;
-
 @compute @workgroup_size(64)
 fn main(
     @builtin(workgroup_id) workgroup: vec3<u32>,

@@ -26,7 +26,7 @@ struct Tile {
     job: u32,
     start: u32,
     end: u32,
-    knots: u32,
+    unused: u32,
     first_line: u32,
     lines: u32,
     first_control: u32,

@@ -37,7 +37,7 @@ fn crosses(curve: u32, uv: vec2<f32>) -> bool {
     if uv.x >= max(first.x, second.z) {
         return false;
     }
-    // The place on the curve at this v, by false position with halving (v runs one way).
+    // The place on the curve at this v, by halving (v runs one way).
     let v = vec4<f32>(first.y, first.w, second.y, second.w) - uv.y;
     let u = vec4<f32>(first.x, first.z, second.x, second.z);
     var low = 0.0;

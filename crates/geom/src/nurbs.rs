@@ -15,6 +15,7 @@ pub(crate) mod knots;
 mod surface;
 mod sweep;
 
+pub use basis::{basis_functions, find_span};
 pub use bezier::{BezierCurve, BezierGrid, BezierPatch};
 pub use curve::NurbsCurve;
 pub(crate) use curve::sample_parameters;

@@ -10,7 +10,9 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::Context;
-use trimloop_gpu::{Backend, Evaluator, FaceShape, FaceShapes, Gpu, Places, Quantities, Request, Values};
+use trimloop_gpu::{
+    Backend, Deviation, Evaluator, FaceShape, FaceShapes, Gpu, Places, Quantities, Request, Values,
+};
 use trimloop_import::ImportOptions;
 use trimloop_trim::Tolerance;
 
@@ -64,28 +66,17 @@ fn run(evaluator: &Evaluator, faces: &[FaceShape], grid: usize) -> anyhow::Resul
     let all = evaluator.evaluate(&requests, Quantities::Normals)?;
     let seconds = start.elapsed().as_secs_f64();
     let points: usize = all.iter().map(Values::len).sum();
-    let worst = requests.iter().zip(&all).map(|(request, values)| differences(request, values));
-    let worst = worst.fold([0.0; 2], |a: [f64; 2], b| [a[0].max(b[0]), a[1].max(b[1])]);
+    let all = requests.iter().zip(&all).map(|(request, values)| Deviation::of(request, values));
+    let worst = all.fold(Deviation::default(), |a, b| Deviation {
+        distance: a.distance.max(b.distance),
+        angle_deg: a.angle_deg.max(b.angle_deg),
+    });
     let rate = points as f64 / seconds;
-    println!("{:24} {rate:>14.3e} {:>20.2e} {:>16.5}", evaluator.backend().name(), worst[0], worst[1]);
+    println!(
+        "{:24} {rate:>14.3e} {:>20.2e} {:>16.5}",
+        evaluator.backend().name(),
+        worst.distance,
+        worst.angle_deg
+    );
     Ok(())
-}
-
-/// Largest distance from the exact point over the face's size, and angle between normals away from singular points.
-fn differences(request: &Request<'_>, values: &Values) -> [f64; 2] {
-    let mut worst = [0.0f64; 2];
-    // A face can be a single point.
-    let size = request.shape.size().max(f64::MIN_POSITIVE);
-    for k in 0..values.len() {
-        let uv = request.places.uv(k);
-        let exact = request.shape.derivatives(uv);
-        worst[0] = worst[0].max(values.point(k).distance(exact.point) / size);
-        let [u, v] = request.shape.domain();
-        let is_regular =
-            exact.du.length() * u.length() > 1e-2 * size && exact.dv.length() * v.length() > 1e-2 * size;
-        if let Some(own) = values.normal(k).filter(|_| is_regular) {
-            worst[1] = worst[1].max(own.angle_between(request.shape.normal(uv)).to_degrees());
-        }
-    }
-    worst
 }

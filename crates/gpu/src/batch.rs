@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use glam::{DVec2, Vec3, Vec4};
 use trimloop_geom::Interval;
+use trimloop_geom::nurbs::find_span;
 
 use crate::shape::{Bezier, Facet, Net};
 use crate::{Backend, Places, Quantities, Request, Shape};
@@ -50,7 +51,7 @@ pub(crate) struct Tile {
     pub job: u32,
     pub start: u32,
     pub end: u32,
-    pub knots: u32,
+    pub unused: u32,
     pub first_line: u32,
     pub lines: u32,
     pub first_control: u32,
@@ -116,9 +117,9 @@ pub(crate) fn batches<'a>(
             continue;
         }
         let fixed = fixed_bytes(request.shape, net, backend);
-        let (count, per_row) = match &request.places {
-            Places::Grid { us, vs } => (us.len(), vs.len()),
-            Places::List(list) => (list.len(), 1),
+        let count = match &request.places {
+            Places::Grid { us, .. } => us.len(),
+            Places::List(list) => list.len(),
         };
         let own = per_row_bytes(net, &request.places, backend, quantities);
         // Half the limit each, so that a shape and its results go together.
@@ -143,7 +144,6 @@ pub(crate) fn batches<'a>(
             }
             open.push(piece);
             start = end;
-            debug_assert!(per_row > 0);
         }
     }
     if !open.is_empty() {
@@ -173,10 +173,13 @@ impl Sums {
     }
 
     fn exceeds(self, limit: u64) -> bool {
-        // Basis functions and rows of knots are the largest tables that lines have.
-        let per_line = 4 * (3 * self.width).max(2 * self.width + 3) + 16;
-        self.output > limit || self.control > limit || self.lines * per_line > limit
+        self.output > limit || self.control > limit || self.lines * bytes_per_line(self.width) > limit
     }
+}
+
+/// Bytes that a line takes in the largest table that grows with lines: lines, rows of knots, basis functions.
+fn bytes_per_line(width: u64) -> u64 {
+    (size_of::<Line>() as u64).max(4 * (2 * width + 3)).max(12 * width)
 }
 
 fn fixed_bytes(shape: &Shape, net: &Net, backend: Backend) -> u64 {
@@ -199,7 +202,10 @@ fn per_row_bytes(net: &Net, places: &Places, backend: Backend, quantities: Quant
         (Backend::Tan, Places::List(_)) => (net.degrees[1] + 1) * quantities.kinds(),
         _ => 0,
     };
-    16 * output.max(scratch) as u64
+    // A list's points bring two lines each; those of a grid are shared.
+    let lines = if matches!(places, Places::List(_)) { 2 } else { 1 };
+    let width = (net.degrees[0].max(net.degrees[1]) as u64 + 1).next_power_of_two().max(4);
+    (16 * output.max(scratch) as u64).max(lines * bytes_per_line(width))
 }
 
 impl Batch {
@@ -373,7 +379,11 @@ fn knot_line(net: &Net, d: usize, u: f64, first_knot: u32) -> Line {
     let [t, slope, bend] = net.maps[d].at(u);
     let domain = net.domain(d);
     let inner = &net.knots[d][degree..=net.shape[d]];
-    let span = usable_span(inner, net.span(d, domain.clamp(t)) - degree, domain.length());
+    let span = usable_span(
+        inner,
+        find_span(&net.knots[d], degree, net.shape[d], domain.clamp(t)) - degree,
+        domain.length(),
+    );
     let t = Interval::new(inner[span], inner[span + 1]).clamp(t);
     let first = span as u32;
     let length = domain.length();

@@ -14,6 +14,7 @@
 //! ```
 
 mod batch;
+mod deviation;
 mod device;
 mod error;
 mod evaluate;
@@ -27,6 +28,7 @@ mod trim_classify;
 mod trim_fan;
 mod wavelet;
 
+pub use deviation::Deviation;
 pub use device::Gpu;
 pub use error::GpuError;
 pub use evaluate::{DeviceBatch, DevicePiece, DeviceValues, Evaluator};

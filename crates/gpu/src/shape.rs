@@ -208,16 +208,6 @@ impl Net {
         Interval::new(knots[degree], knots[knots.len() - 1 - degree])
     }
 
-    /// The index i of the non-empty span `knots[i] <= t < knots[i + 1]`, the last one closed (Piegl & Tiller A2.1).
-    pub fn span(&self, d: usize, t: f64) -> usize {
-        let (knots, degree, count) = (&self.knots[d], self.degrees[d], self.shape[d]);
-        let mut span = degree + knots[degree + 1..count].partition_point(|&k| k <= t);
-        while span > degree && knots[span] >= knots[span + 1] {
-            span -= 1;
-        }
-        span
-    }
-
     fn to_bezier(&self, normal: impl Fn(DVec2) -> DVec3) -> Bezier {
         let origin_of = |p: DVec4| p.truncate() / p.w;
         let patches = self.patches();

@@ -72,13 +72,6 @@ impl TrimTable {
         (self.low, self.low + self.extent)
     }
 
-    /// The share of cells that tell without looking at curves.
-    pub fn decided_share(&self) -> f64 {
-        let count = self.header[0] * self.header[1];
-        let decided = (0..count).filter(|&cell| self.state(cell) != MIXED).count();
-        decided as f64 / f64::from(count)
-    }
-
     /// The CPU twin: whether (u, v) is inside.
     pub fn contains(&self, uv: DVec2) -> bool {
         self.contains_unit(self.normalized(uv))

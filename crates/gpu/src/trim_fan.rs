@@ -229,3 +229,26 @@ fn pipeline(gpu: &Gpu, module: &wgpu::ShaderModule, mask: wgpu::ColorWrites) -> 
         cache: None,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_loop_with_a_hole_covers_its_ring() {
+        let square = |low: f32, high: f32| {
+            vec![Vec2::splat(low), Vec2::new(high, low), Vec2::splat(high), Vec2::new(low, high)]
+        };
+        let fans = TrimFans { loops: vec![square(0.0, 1.0), square(0.25, 0.75)] };
+        let texture = fans.texture(8, 8);
+        let inside = texture.texels.iter().filter(|texel| **texel == 255).count();
+        assert_eq!((inside, texture.texels[0], texture.texels[8 * 4 + 4]), (48, 255, 0));
+    }
+
+    #[test]
+    fn sizes_follow_the_level_of_detail() {
+        assert_eq!(TrimFans::side(10.0, 25.6, 1024), 256);
+        assert_eq!(TrimFans::side(1e9, 25.6, 1024), 1024);
+        assert_eq!(TrimFans::side(f64::NAN, 1.0, 1024), 1);
+    }
+}

@@ -1,6 +1,6 @@
 //! Every face of every fixture, evaluated by each backend, against f64.
 
-use trimloop_gpu::{Backend, Evaluator, FaceShape, FaceShapes, Places, Quantities, Request, Values};
+use trimloop_gpu::{Backend, Deviation, Evaluator, FaceShape, FaceShapes, Places, Quantities, Request};
 use trimloop_import::ImportOptions;
 use trimloop_tests::fixture;
 use trimloop_trim::Tolerance;
@@ -23,27 +23,6 @@ fn all_faces() -> Vec<(String, FaceShape)> {
     out
 }
 
-/// Largest distance from the exact point over the face's size; largest angle in degrees between normals away from
-/// singular points.
-fn differences(request: &Request<'_>, values: &Values) -> [f64; 2] {
-    let mut worst = [0.0f64; 2];
-    let size = request.shape.size();
-    let [u, v] = request.shape.domain();
-    for k in 0..values.len() {
-        let uv = request.places.uv(k);
-        let exact = request.shape.derivatives(uv);
-        worst[0] = worst[0].max(values.point(k).distance(exact.point) / size);
-        let own = values.normal(k).expect("asked for");
-        assert!(own.is_finite());
-        let is_regular =
-            exact.du.length() * u.length() > 1e-2 * size && exact.dv.length() * v.length() > 1e-2 * size;
-        if is_regular {
-            worst[1] = worst[1].max(own.angle_between(request.shape.normal(uv)).to_degrees());
-        }
-    }
-    worst
-}
-
 #[test]
 fn every_face_of_every_fixture() {
     let faces = all_faces();
@@ -62,7 +41,7 @@ fn every_face_of_every_fixture() {
         let all = evaluator.evaluate(&requests, Quantities::Normals).expect("evaluated");
         let mut worst = [0.0f64; 2];
         for ((request, values), (name, _)) in requests.iter().zip(&all).zip(&faces) {
-            let [distance, angle] = differences(request, values);
+            let Deviation { distance, angle_deg: angle } = Deviation::of(request, values);
             // The published ones are given the single precision of their parameters.
             let allowed = if matches!(backend, Backend::Cpu | Backend::Bezier) { 1e-6 } else { 5e-6 };
             assert!(distance <= allowed, "{} {name}: {distance}", backend.name());

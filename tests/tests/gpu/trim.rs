@@ -116,13 +116,11 @@ fn trim_textures_are_wrong_beside_curves_alone() {
         for name in [
             "cadquery/bracket",
             "cadquery/plate_with_hole",
-            "cadquery/flange",
+            "cadquery/viviani",
             "freecad/fillets",
             "freecad/sweep",
         ] {
-            let Some(fixture) = fixture::all().into_iter().find(|fixture| fixture.name == name) else {
-                continue;
-            };
+            let fixture = fixture::named(name);
             let model = trimloop_import::read(&fixture.path, &ImportOptions::default()).expect("readable");
             for part in &model.parts {
                 let shapes = FaceShapes::new(part, tolerance);

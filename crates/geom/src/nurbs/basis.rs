@@ -48,12 +48,20 @@ pub(crate) use by_degree;
 /// The index i of the non-empty knot span `knots[i] <= t < knots[i + 1]`, `degree <= i < count`; the last non-empty
 /// span at the domain's end (Piegl & Tiller A2.1, by binary search).
 #[inline]
-pub(crate) fn find_span(knots: &[f64], degree: usize, count: usize, t: f64) -> usize {
+pub fn find_span(knots: &[f64], degree: usize, count: usize, t: f64) -> usize {
     let mut span = degree + knots[degree + 1..count].partition_point(|&k| k <= t);
     while span > degree && knots[span] >= knots[span + 1] {
         span -= 1;
     }
     span
+}
+
+/// The `degree + 1` basis functions that do not vanish at `t` in the domain of `count` control points, and the number of
+/// the first one (Piegl & Tiller A2.2).
+pub fn basis_functions(knots: &[f64], degree: usize, count: usize, t: f64) -> (usize, Vec<f64>) {
+    let basis = Basis::<Vec<f64>>::new::<0, 0>(knots, degree, count, t);
+    let [values, ..] = basis.rows;
+    (basis.first, values)
 }
 
 /// The `degree + 1` basis functions that do not vanish at one parameter, and their first two derivatives.

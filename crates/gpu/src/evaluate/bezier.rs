@@ -62,7 +62,7 @@ fn grid_tiles(batch: &Batch, capacity: u32) -> Vec<Tile> {
                 job: number as u32,
                 start,
                 end: (start + rows).min(job.rows),
-                knots: 0,
+                unused: 0,
                 first_line: columns.start,
                 lines: count,
                 first_control: controls.start,

@@ -151,6 +151,7 @@ impl Evaluator {
             ("results", bytes),
             ("control points", 16 * batch.control.len() as u64),
             ("basis functions", 12 * (batch.lines.len() * batch.width) as u64),
+            ("lines", size_of_val(&batch.lines[..]) as u64),
         ];
         if let Some((what, bytes)) = largest.into_iter().find(|(_, bytes)| *bytes > limit) {
             let reason = format!("{bytes} bytes of {what} in one row, the device allows {limit}");

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
+use trimloop_geom::nurbs::basis_functions;
 
 use crate::shape::Net;
 
@@ -132,21 +133,6 @@ impl Run {
     }
 }
 
-/// The basis functions that do not vanish at `t` and the number of the first (Piegl & Tiller A2.2).
-pub(crate) fn basis(net: &Net, d: usize, t: f64) -> (usize, Vec<f64>) {
-    let (knots, degree) = (&net.knots[d], net.degrees[d]);
-    let span = net.span(d, t);
-    let mut values = vec![0.0; degree + 1];
-    values[0] = 1.0;
-    for j in 1..=degree {
-        let mut saved = 0.0;
-        for r in 0..j {
-            let (right, left) = (knots[span + r + 1], knots[span + 1 + r - j]);
-            let share = values[r] / (right - left);
-            values[r] = saved + (right - t) * share;
-            saved = (t - left) * share;
-        }
-        values[j] = saved;
-    }
-    (span - degree, values)
+fn basis(net: &Net, d: usize, t: f64) -> (usize, Vec<f64>) {
+    basis_functions(&net.knots[d], net.degrees[d], net.shape[d], t)
 }
