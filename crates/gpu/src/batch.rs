@@ -339,7 +339,7 @@ fn inward(net: &Net, d: usize, t: f64) -> f32 {
 }
 
 /// Spans shorter than this share of the domain are passed over for a neighbour: single precision shows nothing in them.
-const SHORTEST: f64 = 1e-8;
+const SHORTEST: f64 = 1e-7;
 
 /// The nearest span from `span` on that is long enough.
 fn usable_span(ends: &[f64], span: usize, domain: f64) -> usize {

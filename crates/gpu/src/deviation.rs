@@ -16,8 +16,9 @@ impl Deviation {
     /// whole domain, are longer than a hundredth of the shape's size do normals count.
     pub fn of(request: &Request<'_>, values: &Values) -> Self {
         let mut worst = Self::default();
-        // A shape can be a single point.
-        let size = request.shape.size().max(f64::MIN_POSITIVE);
+        // A shape can be a single point, far away: then its coordinates' own rounding is what distances are held against.
+        let rounding = 1e-9 * request.shape.origin().length();
+        let size = request.shape.size().max(rounding).max(f64::MIN_POSITIVE);
         let [u, v] = request.shape.domain();
         for k in 0..values.len() {
             let uv = request.places.uv(k);
