@@ -248,17 +248,8 @@ impl Gpu {
         })
     }
 
-    /// Adds a pass over `workgroups` to `encoder`; `buffers` are bindings 0, 1, ... of group 0.
-    pub(crate) fn dispatch(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        key: &Key,
-        buffers: &[&wgpu::Buffer],
-        workgroups: usize,
-    ) {
-        if workgroups == 0 {
-            return;
-        }
+    /// A pass over `workgroups`; `buffers` are bindings 0, 1, ... of group 0.
+    pub(crate) fn pass(&self, key: &Key, buffers: &[&wgpu::Buffer], workgroups: usize) -> Pass {
         let pipeline = self.pipeline(key);
         let entries: Vec<wgpu::BindGroupEntry<'_>> = buffers
             .iter()
@@ -270,12 +261,40 @@ impl Gpu {
             layout: &pipeline.get_bind_group_layout(0),
             entries: &entries,
         });
+        Pass { pipeline, group, workgroups }
+    }
+
+    /// Adds a pass that runs once to `encoder`; as [`Gpu::pass`].
+    pub(crate) fn dispatch(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        key: &Key,
+        buffers: &[&wgpu::Buffer],
+        workgroups: usize,
+    ) {
+        self.pass(key, buffers, workgroups).encode(encoder);
+    }
+}
+
+/// A pass with everything it reads and writes; it can run again and again.
+#[derive(Clone, Debug)]
+pub(crate) struct Pass {
+    pipeline: Arc<wgpu::ComputePipeline>,
+    group: wgpu::BindGroup,
+    workgroups: usize,
+}
+
+impl Pass {
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        if self.workgroups == 0 {
+            return;
+        }
         let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group, &[]);
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &self.group, &[]);
         // Rows of workgroups, since one row is limited; shaders leave out what is too many.
-        let across = workgroups.min(WIDEST);
-        pass.dispatch_workgroups(across as u32, workgroups.div_ceil(across) as u32, 1);
+        let across = self.workgroups.min(WIDEST);
+        pass.dispatch_workgroups(across as u32, self.workgroups.div_ceil(across) as u32, 1);
     }
 }
 

@@ -26,12 +26,13 @@ pub mod shaders;
 mod shape;
 mod trim_classify;
 mod trim_fan;
+mod twin;
 mod wavelet;
 
 pub use deviation::Deviation;
 pub use device::Gpu;
 pub use error::GpuError;
-pub use evaluate::{DeviceBatch, DevicePiece, DeviceValues, Evaluator};
+pub use evaluate::{DeviceBatch, DevicePiece, DeviceValues, Evaluator, Prepared};
 pub use faces::{FaceShape, FaceShapes};
 pub use lod_factors::{LodShape, LodView, lod_cells};
 pub use request::{Backend, Places, Quantities, Request, Values};

@@ -94,6 +94,40 @@ fn all_backends_agree_with_f64() {
 }
 
 #[test]
+fn twins_return_what_the_device_does() {
+    let Some(gpu) = gpu() else { return };
+    let shapes = specimens();
+    let mut requests = Vec::new();
+    for (_, shape) in &shapes {
+        requests.extend(places_of(shape).into_iter().map(|places| Request { shape, places }));
+    }
+    for backend in Backend::ALL.into_iter().filter(|backend| *backend != Backend::Cpu) {
+        let run =
+            |evaluator: Evaluator| evaluator.evaluate(&requests, Quantities::Second).expect("evaluated");
+        let (device, twin) = (run(Evaluator::on_gpu(gpu, backend)), run(Evaluator::twin(backend)));
+        let [mut point, mut first, mut second] = [0.0f64; 3];
+        for ((request, a), b) in requests.iter().zip(&device).zip(&twin) {
+            let pairs =
+                || (0..a.len()).map(|k| (a.derivatives(k).expect("asked"), b.derivatives(k).expect("asked")));
+            let largest = |of: fn(&trimloop_geom::Derivatives) -> f64| {
+                pairs().map(|(a, _)| of(&a)).fold(1e-30, f64::max)
+            };
+            let du = largest(|d| d.du.length().max(d.dv.length()));
+            let duu = largest(|d| d.duu.length().max(d.duv.length()).max(d.dvv.length())).max(du);
+            for (a, b) in pairs() {
+                point = point.max(a.point.distance(b.point) / request.shape.size());
+                first = first.max(a.du.distance(b.du).max(a.dv.distance(b.dv)) / du);
+                let bends = [(a.duu, b.duu), (a.duv, b.duv), (a.dvv, b.dvv)].map(|(a, b)| a.distance(b));
+                second = second.max(bends.into_iter().fold(0.0, f64::max) / duu);
+            }
+        }
+        println!("{:24} {point:.1e} {first:.1e} {second:.1e}", backend.name());
+        // Devices may fuse products with sums.
+        assert!(point < 5e-7 && first < 2e-5 && second < 2e-4, "{}", backend.name());
+    }
+}
+
+#[test]
 fn curves_of_every_kind() {
     let frame = Frame::WORLD;
     let curves = [

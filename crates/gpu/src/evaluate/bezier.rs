@@ -1,8 +1,10 @@
 //! Bézier facets: basis functions per line, then grids tile by tile through workgroup memory, lists point by point.
 
+use glam::Vec4;
+
 use crate::batch::{Batch, Job, Tile};
-use crate::device::Key;
-use crate::{Gpu, Quantities};
+use crate::device::{Key, Pass};
+use crate::{Gpu, Quantities, twin};
 
 /// Vectors in workgroup memory, as in `shaders/bezier_grid.wgsl`.
 const CAPACITY: u32 = 768;
@@ -17,19 +19,13 @@ pub(super) fn points_of_workgroup(batch: &Batch) -> usize {
     64 * (LONGEST_LOOP / (width * width)).clamp(1, 4) as usize
 }
 
-pub(super) fn encode(
-    gpu: &Gpu,
-    encoder: &mut wgpu::CommandEncoder,
-    batch: &Batch,
-    quantities: Quantities,
-    out: &wgpu::Buffer,
-) {
+pub(super) fn passes(gpu: &Gpu, batch: &Batch, quantities: Quantities, out: &wgpu::Buffer) -> Vec<Pass> {
     let width = batch.width as u32;
     let stride = quantities.stride() as u32;
     let lines = gpu.upload("lines", &batch.lines);
     let basis = gpu.reserve("basis", 12 * (batch.lines.len() * batch.width) as u64);
     let basis_key = Key::new("bezier_basis", "main").with("WIDTH", width);
-    gpu.dispatch(encoder, &basis_key, &[&lines, &basis], batch.lines.len().div_ceil(64));
+    let mut passes = vec![gpu.pass(&basis_key, &[&lines, &basis], batch.lines.len().div_ceil(64))];
     let jobs = gpu.upload("jobs", &batch.jobs);
     let control = gpu.upload("control points", &batch.control);
     let facets = gpu.upload("facets", &batch.facets);
@@ -39,15 +35,35 @@ pub(super) fn encode(
         let key =
             Key::new("bezier_grid", "main").with("WIDTH", width).with("STRIDE", stride).with("KINDS", kinds);
         let tiles = gpu.upload("tiles", &grids);
-        gpu.dispatch(encoder, &key, &[&jobs, &tiles, &lines, &basis, &control, &facets, out], grids.len());
+        let buffers = [&jobs, &tiles, &lines, &basis, &control, &facets, out];
+        passes.push(gpu.pass(&key, &buffers, grids.len()));
     }
-    let mut lists = batch.point_tiles(points_of_workgroup(batch));
-    lists.retain(|tile| batch.jobs[tile.job as usize].is_list == 1);
+    let lists = list_tiles(batch);
     if !lists.is_empty() {
         let key = Key::new("tensor_points", "main").with("WIDTH", width).with("STRIDE", stride);
         let tiles = gpu.upload("tiles", &lists);
-        gpu.dispatch(encoder, &key, &[&jobs, &tiles, &lines, &basis, &control, &facets, out], lists.len());
+        let buffers = [&jobs, &tiles, &lines, &basis, &control, &facets, out];
+        passes.push(gpu.pass(&key, &buffers, lists.len()));
     }
+    passes
+}
+
+/// The f32 twin of the passes.
+pub(super) fn twin(batch: &Batch, quantities: Quantities) -> Vec<Vec4> {
+    let width = batch.width;
+    let basis = twin::bezier_basis(&batch.lines, width);
+    let product = twin::Product { batch, basis: &basis, is_packed: false, quantities };
+    let mut out = vec![Vec4::ZERO; batch.points * quantities.stride()];
+    twin::bezier_grid(&product, &grid_tiles(batch, CAPACITY / quantities.kinds() as u32), &mut out);
+    twin::tensor_points(&product, &list_tiles(batch), &mut out);
+    out
+}
+
+/// Tiles of the lists.
+fn list_tiles(batch: &Batch) -> Vec<Tile> {
+    let mut lists = batch.point_tiles(points_of_workgroup(batch));
+    lists.retain(|tile| batch.jobs[tile.job as usize].is_list == 1);
+    lists
 }
 
 /// Tiles of the grids, none of which needs more than `capacity` control points along v in all its rows.

@@ -4,21 +4,20 @@ use glam::Vec4;
 
 use super::bezier::points_of_workgroup;
 use crate::batch::Batch;
-use crate::device::Key;
-use crate::{Backend, Gpu, Quantities};
+use crate::device::{Key, Pass};
+use crate::{Backend, Gpu, Quantities, twin};
 
-pub(super) fn encode(
+pub(super) fn passes(
     gpu: &Gpu,
-    encoder: &mut wgpu::CommandEncoder,
     batch: &Batch,
     layout: Backend,
     quantities: Quantities,
     out: &wgpu::Buffer,
-) {
+) -> Vec<Pass> {
     let width = batch.width as u32;
     let is_packed = layout == Backend::KrishnamurthyPacked;
     let lines = gpu.upload("lines", &batch.lines);
-    let basis = basis(gpu, encoder, batch, layout, &lines);
+    let (mut passes, basis) = basis(gpu, batch, layout, &lines);
     let jobs = gpu.upload("jobs", &batch.jobs);
     let control = gpu.upload("control points", &batch.control);
     let facets = gpu.upload("facets", &batch.facets);
@@ -28,41 +27,67 @@ pub(super) fn encode(
         .with("STRIDE", quantities.stride() as u32)
         .with("PACKED", u32::from(is_packed));
     let buffers = [&jobs, &gpu.upload("tiles", &tiles), &lines, &basis, &control, &facets, out];
-    gpu.dispatch(encoder, &key, &buffers, tiles.len());
+    passes.push(gpu.pass(&key, &buffers, tiles.len()));
+    passes
+}
+
+/// The f32 twin of the passes.
+pub(super) fn twin(batch: &Batch, layout: Backend, quantities: Quantities) -> Vec<Vec4> {
+    let lanes = lanes(layout);
+    let first = first_order(batch, lanes);
+    let basis = match layout {
+        Backend::KrishnamurthyPacked => twin::krishnamurthy_packed(batch, &packed_knots(batch), first),
+        Backend::KrishnamurthyIndexed => twin::krishnamurthy_indexed(batch, &batch.knots, first),
+        _ => twin::krishnamurthy_unpacked(batch, &unpacked_knots(batch), first),
+    };
+    let product = twin::Product { batch, basis: &basis, is_packed: lanes == 4, quantities };
+    let mut out = vec![Vec4::ZERO; batch.points * quantities.stride()];
+    twin::tensor_points(&product, &batch.point_tiles(points_of_workgroup(batch)), &mut out);
+    out
+}
+
+/// Lines that share a row.
+fn lanes(layout: Backend) -> usize {
+    if layout == Backend::KrishnamurthyPacked { 4 } else { 1 }
+}
+
+/// The functions of order 1: a one in each span's place.
+fn first_order(batch: &Batch, lanes: usize) -> Vec<f32> {
+    let rows = batch.lines.len().div_ceil(lanes);
+    let mut first = vec![0f32; rows * lanes * (batch.width + 2)];
+    for (index, line) in batch.lines.iter().enumerate() {
+        let place = (index / lanes) * (batch.width + 2) + line.degree as usize;
+        first[place * lanes + index % lanes] = 1.0;
+    }
+    first
 }
 
 /// One pass per order, from the row of order 1 on (section 4).
-fn basis(
-    gpu: &Gpu,
-    encoder: &mut wgpu::CommandEncoder,
-    batch: &Batch,
-    layout: Backend,
-    lines: &wgpu::Buffer,
-) -> wgpu::Buffer {
+fn basis(gpu: &Gpu, batch: &Batch, layout: Backend, lines: &wgpu::Buffer) -> (Vec<Pass>, wgpu::Buffer) {
     let width = batch.width;
-    let lanes = if layout == Backend::KrishnamurthyPacked { 4 } else { 1 };
+    let lanes = lanes(layout);
     let rows = batch.lines.len().div_ceil(lanes);
     let (knots, shader) = match layout {
         Backend::KrishnamurthyPacked => (gpu.upload("knots", &packed_knots(batch)), "krishnamurthy_packed"),
         Backend::KrishnamurthyIndexed => (gpu.upload("knots", &batch.knots), "krishnamurthy_indexed"),
         _ => (gpu.upload("knots", &unpacked_knots(batch)), "krishnamurthy_unpacked"),
     };
-    let mut first = vec![0f32; rows * lanes * (width + 2)];
-    for (index, line) in batch.lines.iter().enumerate() {
-        let place = (index / lanes) * (width + 2) + line.degree as usize;
-        first[place * lanes + index % lanes] = 1.0;
-    }
-    let mut before = gpu.upload("basis of one order", &first);
-    let mut after = gpu.upload("basis of the next order", &vec![0f32; first.len()]);
+    let first = first_order(batch, lanes);
+    // The first row is only read, so that the passes can run again.
+    let orders = [
+        gpu.upload("basis of order 1", &first),
+        gpu.reserve("basis of one order", size_of_val(&first[..]) as u64),
+        gpu.reserve("basis of the next order", size_of_val(&first[..]) as u64),
+    ];
     let basis = gpu.reserve("basis", 12 * (rows * lanes * width) as u64);
     let key = Key::new(shader, "main").with("WIDTH", width as u32);
-    for degree in 0..width as u32 {
-        let pass = gpu.upload("pass", &[degree, 0, 0, 0]);
-        let buffers = [lines, &knots, &pass, &before, &after, &basis];
-        gpu.dispatch(encoder, &key, &buffers, (rows * width).div_ceil(64));
-        std::mem::swap(&mut before, &mut after);
-    }
-    basis
+    let pass = |degree: usize| {
+        let number = gpu.upload("pass", &[degree as u32, 0, 0, 0]);
+        let before = if degree == 0 { &orders[0] } else { &orders[1 + (degree + 1) % 2] };
+        let buffers = [lines, &knots, &number, before, &orders[1 + degree % 2], &basis];
+        gpu.pass(&key, &buffers, (rows * width).div_ceil(64))
+    };
+    ((0..width).map(pass).collect(), basis)
 }
 
 /// The parameter of each line and the 2 (degree + 1) knots around its span, as wide as the batch's largest order asks.

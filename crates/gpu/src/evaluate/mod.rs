@@ -9,6 +9,7 @@ mod tan;
 use glam::Vec4;
 
 use crate::batch::{Batch, Piece, batches};
+use crate::device::Pass;
 use crate::request::Data;
 use crate::{Backend, Gpu, GpuError, Quantities, Request, Values};
 
@@ -17,6 +18,14 @@ use crate::{Backend, Gpu, GpuError, Quantities, Request, Values};
 pub struct Evaluator {
     backend: Backend,
     gpu: Option<Gpu>,
+}
+
+/// Requests whose tables lie on the device, with room for the results: evaluated as often as wished, nothing is sent.
+#[derive(Debug)]
+pub struct Prepared {
+    gpu: Gpu,
+    passes: Vec<Pass>,
+    values: DeviceValues,
 }
 
 /// Results that stay on the device: one buffer per batch.
@@ -48,6 +57,36 @@ pub struct DevicePiece {
     pub points: usize,
 }
 
+impl Prepared {
+    /// Adds the evaluation to `encoder`.
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        self.passes.iter().for_each(|pass| pass.encode(encoder));
+    }
+
+    /// Starts the evaluation; it may not be done yet when this returns.
+    ///
+    /// # Errors
+    /// What the device refuses.
+    pub fn run(&self) -> Result<(), GpuError> {
+        self.gpu.scoped("evaluate what is prepared", || {
+            let mut encoder = self.gpu.device().create_command_encoder(&Default::default());
+            self.encode(&mut encoder);
+            self.gpu.queue().submit([encoder.finish()]);
+            Ok(())
+        })
+    }
+
+    /// Where the results are, as soon as the evaluation has run.
+    pub fn values(&self) -> &DeviceValues {
+        &self.values
+    }
+
+    /// The same, without what evaluated them.
+    pub fn into_values(self) -> DeviceValues {
+        self.values
+    }
+}
+
 impl DeviceValues {
     /// The buffers.
     pub fn batches(&self) -> &[DeviceBatch] {
@@ -68,7 +107,12 @@ impl Evaluator {
 
     /// The evaluator that needs no device: [`Backend::Cpu`].
     pub fn on_cpu() -> Self {
-        Self { backend: Backend::Cpu, gpu: None }
+        Self::twin(Backend::Cpu)
+    }
+
+    /// The passes of `backend` as they stand in the shaders, in f32 on one core of the CPU: what a device ought to return.
+    pub fn twin(backend: Backend) -> Self {
+        Self { backend, gpu: None }
     }
 
     /// Its backend.
@@ -88,18 +132,24 @@ impl Evaluator {
         requests: &[Request<'_>],
         quantities: Quantities,
     ) -> Result<Vec<Values>, GpuError> {
-        let Some(gpu) = self.gpu.as_ref().filter(|_| self.backend != Backend::Cpu) else {
+        if self.backend == Backend::Cpu {
             return Ok(requests.iter().map(|request| cpu::values(request, quantities)).collect());
-        };
+        }
+        let stride = quantities.stride();
         let mut out: Vec<Option<Values>> = vec![None; requests.len()];
-        for pieces in batches(requests, self.backend, quantities, gpu.largest_binding()) {
-            let batch = self.submit(gpu, &pieces, quantities)?;
-            let name = self.describe(&pieces);
-            let bytes = (pieces.iter().map(Piece::points).sum::<usize>() * quantities.stride() * 16) as u64;
-            let vectors: Vec<Vec4> = gpu.download(&name, &batch.buffer, bytes)?;
-            for piece in &batch.pieces {
-                let range =
-                    piece.offset * quantities.stride()..(piece.offset + piece.points) * quantities.stride();
+        for pieces in batches(requests, self.backend, quantities, self.limit()) {
+            let batch = Batch::new(&pieces, self.backend);
+            let vectors: Vec<Vec4> = match &self.gpu {
+                Some(gpu) => {
+                    let prepared = self.prepare_batch(gpu, &pieces, &batch, quantities)?;
+                    prepared.run()?;
+                    let bytes = (batch.points * stride * 16) as u64;
+                    gpu.download(&self.describe(&pieces), &prepared.values.batches[0].buffer, bytes)?
+                }
+                None => self.twin_of(&batch, quantities),
+            };
+            for piece in placed(&pieces) {
+                let range = piece.offset * stride..(piece.offset + piece.points) * stride;
                 let origin = requests[piece.request].shape.origin();
                 let data = Data::Single { origin, vectors: vectors[range].to_vec() };
                 let values = Values { quantities, data };
@@ -119,17 +169,49 @@ impl Evaluator {
     /// done yet when this returns.
     ///
     /// # Errors
-    /// As [`Evaluator::evaluate`]; also for [`Backend::Cpu`].
+    /// As [`Evaluator::evaluate`]; also without a device.
     pub fn evaluate_on_device(
         &self,
         requests: &[Request<'_>],
         quantities: Quantities,
     ) -> Result<DeviceValues, GpuError> {
+        let prepared = self.prepare(requests, quantities)?;
+        prepared.run()?;
+        Ok(prepared.into_values())
+    }
+
+    /// Sends the requests whose shapes have a NURBS form to the device and evaluates nothing yet.
+    ///
+    /// # Errors
+    /// As [`Evaluator::evaluate`]; also without a device.
+    pub fn prepare(&self, requests: &[Request<'_>], quantities: Quantities) -> Result<Prepared, GpuError> {
         let gpu = self.gpu.as_ref().filter(|_| self.backend != Backend::Cpu);
-        let gpu = gpu.ok_or_else(|| GpuError::Request("the backend `cpu` has no device".to_owned()))?;
-        let batches = batches(requests, self.backend, quantities, gpu.largest_binding());
-        let batches = batches.iter().map(|pieces| self.submit(gpu, pieces, quantities));
-        Ok(DeviceValues { quantities, batches: batches.collect::<Result<_, _>>()? })
+        let gpu = gpu.ok_or_else(|| {
+            GpuError::Request(format!("this evaluator (`{}`) has no device", self.backend.name()))
+        })?;
+        let values = DeviceValues { quantities, batches: Vec::new() };
+        let mut all = Prepared { gpu: gpu.clone(), passes: Vec::new(), values };
+        for pieces in batches(requests, self.backend, quantities, self.limit()) {
+            let batch = Batch::new(&pieces, self.backend);
+            let one = self.prepare_batch(gpu, &pieces, &batch, quantities)?;
+            all.passes.extend(one.passes);
+            all.values.batches.extend(one.values.batches);
+        }
+        Ok(all)
+    }
+
+    /// Bytes that a table may have.
+    fn limit(&self) -> u64 {
+        let portable = wgpu::Limits::default().max_storage_buffer_binding_size;
+        self.gpu.as_ref().map_or(portable, Gpu::largest_binding)
+    }
+
+    fn twin_of(&self, batch: &Batch, quantities: Quantities) -> Vec<Vec4> {
+        match self.backend {
+            Backend::Bezier | Backend::Cpu => bezier::twin(batch, quantities),
+            Backend::Tan => tan::twin(batch, quantities),
+            layout => krishnamurthy::twin(batch, layout, quantities),
+        }
     }
 
     fn describe(&self, pieces: &[Piece<'_>]) -> String {
@@ -137,16 +219,16 @@ impl Evaluator {
         format!("evaluate {points} points in {} pieces with {}", pieces.len(), self.backend.name())
     }
 
-    fn submit(
+    fn prepare_batch(
         &self,
         gpu: &Gpu,
         pieces: &[Piece<'_>],
+        batch: &Batch,
         quantities: Quantities,
-    ) -> Result<DeviceBatch, GpuError> {
+    ) -> Result<Prepared, GpuError> {
         let name = self.describe(pieces);
-        let batch = Batch::new(pieces, self.backend);
         let bytes = (batch.points * quantities.stride() * 16) as u64;
-        let limit = gpu.largest_binding();
+        let limit = self.limit();
         let largest = [
             ("results", bytes),
             ("control points", 16 * batch.control.len() as u64),
@@ -157,24 +239,27 @@ impl Evaluator {
             let reason = format!("{bytes} bytes of {what} in one row, the device allows {limit}");
             return Err(GpuError::TooLarge { request: name, reason });
         }
-        let buffer = gpu.scoped(&name, || {
+        let (passes, buffer) = gpu.scoped(&name, || {
             let out = gpu.reserve("results", bytes);
-            let mut encoder = gpu.device().create_command_encoder(&Default::default());
-            match self.backend {
-                Backend::Bezier | Backend::Cpu => bezier::encode(gpu, &mut encoder, &batch, quantities, &out),
-                Backend::Tan => tan::encode(gpu, &mut encoder, &batch, quantities, &out),
-                layout => krishnamurthy::encode(gpu, &mut encoder, &batch, layout, quantities, &out),
-            }
-            gpu.queue().submit([encoder.finish()]);
-            Ok(out)
+            let passes = match self.backend {
+                Backend::Bezier | Backend::Cpu => bezier::passes(gpu, batch, quantities, &out),
+                Backend::Tan => tan::passes(gpu, batch, quantities, &out),
+                layout => krishnamurthy::passes(gpu, batch, layout, quantities, &out),
+            };
+            Ok((passes, out))
         })?;
-        let mut offset = 0;
-        let mut placed = Vec::with_capacity(pieces.len());
-        for piece in pieces {
-            let points = piece.points();
-            placed.push(DevicePiece { request: piece.request, first: piece.range.start, offset, points });
-            offset += points;
-        }
-        Ok(DeviceBatch { buffer, pieces: placed })
+        let batches = vec![DeviceBatch { buffer, pieces: placed(pieces) }];
+        Ok(Prepared { gpu: gpu.clone(), passes, values: DeviceValues { quantities, batches } })
     }
+}
+
+/// Where pieces lie in their batch's results.
+fn placed(pieces: &[Piece<'_>]) -> Vec<DevicePiece> {
+    let mut offset = 0;
+    let place = |piece: &Piece<'_>| {
+        let points = piece.points();
+        offset += points;
+        DevicePiece { request: piece.request, first: piece.range.start, offset: offset - points, points }
+    };
+    pieces.iter().map(place).collect()
 }

@@ -1,9 +1,11 @@
 //! Tan, Zhao, Lu 2012: de Boor's algorithm in one pass over the rows and one over the columns, region by region.
 
+use glam::Vec4;
+
 use super::bezier::LONGEST_LOOP;
 use crate::batch::{Batch, Tile};
-use crate::device::Key;
-use crate::{Gpu, Quantities};
+use crate::device::{Key, Pass};
+use crate::{Gpu, Quantities, twin};
 
 /// Elements of a workgroup.
 fn tile_size(batch: &Batch, kinds: u32) -> u32 {
@@ -11,13 +13,7 @@ fn tile_size(batch: &Batch, kinds: u32) -> u32 {
     64 * (LONGEST_LOOP / (kinds * width * (width + 3) / 2)).clamp(1, 16)
 }
 
-pub(super) fn encode(
-    gpu: &Gpu,
-    encoder: &mut wgpu::CommandEncoder,
-    batch: &Batch,
-    quantities: Quantities,
-    out: &wgpu::Buffer,
-) {
+pub(super) fn passes(gpu: &Gpu, batch: &Batch, quantities: Quantities, out: &wgpu::Buffer) -> Vec<Pass> {
     let kinds = quantities.kinds() as u32;
     let key =
         |name| Key::new(name, "main").with("KINDS", kinds).with_literal("MAX_ORDER", batch.width as u32);
@@ -30,12 +26,21 @@ pub(super) fn encode(
 
     let rows = row_tiles(batch, tile_size(batch, 1));
     let tiles = gpu.upload("tiles", &rows);
-    gpu.dispatch(encoder, &key("tan_rows"), &[&jobs, &tiles, &lines, &knots, &control, &scratch], rows.len());
+    let along_u =
+        gpu.pass(&key("tan_rows"), &[&jobs, &tiles, &lines, &knots, &control, &scratch], rows.len());
 
     let columns = column_tiles(batch, tile_size(batch, kinds));
     let tiles = gpu.upload("tiles", &columns);
     let key = key("tan_columns").with("STRIDE", quantities.stride() as u32);
-    gpu.dispatch(encoder, &key, &[&jobs, &tiles, &lines, &knots, &scratch, &facets, out], columns.len());
+    let buffers = [&jobs, &tiles, &lines, &knots, &scratch, &facets, out];
+    vec![along_u, gpu.pass(&key, &buffers, columns.len())]
+}
+
+/// The f32 twin of the passes.
+pub(super) fn twin(batch: &Batch, quantities: Quantities) -> Vec<Vec4> {
+    let kinds = quantities.kinds();
+    let rows = twin::tan_rows(batch, &row_tiles(batch, tile_size(batch, 1)), kinds);
+    twin::tan_columns(batch, &column_tiles(batch, tile_size(batch, kinds as u32)), &rows, quantities)
 }
 
 /// Elements (lines times control columns) whose lines lie in one span along u.
