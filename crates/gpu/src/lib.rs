@@ -39,4 +39,4 @@ pub use request::{Backend, Places, Quantities, Request, Values};
 pub use shape::Shape;
 pub use trim_classify::TrimTable;
 pub use trim_fan::{CHANNELS, TrimFans, TrimTexture, trim_textures};
-pub use wavelet::{Pyramid, Wavelet};
+pub use wavelet::{DevicePyramid, Pyramid, Wavelet};

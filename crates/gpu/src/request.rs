@@ -116,6 +116,14 @@ pub(crate) enum Data {
 }
 
 impl Values {
+    /// The vector of its points, to be filled anew.
+    pub(crate) fn into_room(self) -> Vec<DVec3> {
+        match self.data {
+            Data::Single { .. } => Vec::new(),
+            Data::Double { points, .. } => points,
+        }
+    }
+
     /// Number of points.
     pub fn len(&self) -> usize {
         match &self.data {

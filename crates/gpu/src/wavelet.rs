@@ -16,14 +16,29 @@ pub enum Wavelet {
     Lifting,
 }
 
-/// A grid of points with its details: the coarsest level in front, in both directions.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pyramid {
+/// What a grid of levels consists of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Levels {
     wavelet: Wavelet,
     rows: usize,
     columns: usize,
     level: u32,
+}
+
+/// A grid of points with its details: the coarsest level in front, in both directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pyramid {
+    levels: Levels,
     points: Vec<Vec4>,
+}
+
+/// A [`Pyramid`] that stays on the device.
+#[derive(Debug)]
+pub struct DevicePyramid {
+    gpu: Gpu,
+    levels: Levels,
+    /// The grid, and room for the step along one direction.
+    buffers: [wgpu::Buffer; 2],
 }
 
 /// As in `shaders/shared/wavelet.wgsl`.
@@ -88,6 +103,38 @@ impl Wavelet {
     }
 }
 
+impl Levels {
+    fn size(&self) -> [usize; 2] {
+        self.size_at(self.level)
+    }
+
+    fn size_at(&self, level: u32) -> [usize; 2] {
+        [self.rows, self.columns]
+            .map(|length| (0..level).fold(length, |length, _| self.wavelet.coarser(length).unwrap_or(length)))
+    }
+
+    fn can_go_down(&self) -> bool {
+        self.size().into_iter().all(|length| self.wavelet.coarser(length).is_some())
+    }
+
+    /// Goes to the next level; the region that the step works on and the order of its directions. `None` at the ends.
+    fn step(&mut self, is_down: bool) -> Option<([usize; 2], [u32; 2])> {
+        if (is_down && !self.can_go_down()) || (!is_down && self.level == 0) {
+            return None;
+        }
+        let before = self.level;
+        self.level = if is_down { before + 1 } else { before - 1 };
+        // The finer of the two levels is what a step works on: down along rows, then along columns; up the other way.
+        Some((self.size_at(before.min(self.level)), if is_down { [0, 1] } else { [1, 0] }))
+    }
+
+    /// The points of the present level, row-major.
+    fn points(&self, all: &[Vec4]) -> Vec<Vec4> {
+        let [rows, columns] = self.size();
+        all.chunks(self.columns).take(rows).flat_map(|row| row[..columns].to_vec()).collect()
+    }
+}
+
 impl Pyramid {
     /// The finest level: `rows` x `columns` points, row-major, as evaluated (not homogeneous).
     ///
@@ -100,103 +147,129 @@ impl Pyramid {
                 points.len()
             )));
         }
-        Ok(Self { wavelet, rows, columns, level: 0, points })
+        Ok(Self { levels: Levels { wavelet, rows, columns, level: 0 }, points })
     }
 
     /// How many steps lead down from the finest level.
     pub fn level(&self) -> u32 {
-        self.level
+        self.levels.level
     }
 
     /// Rows and columns of the present level.
     pub fn size(&self) -> [usize; 2] {
-        self.size_at(self.level)
-    }
-
-    fn size_at(&self, level: u32) -> [usize; 2] {
-        [self.rows, self.columns]
-            .map(|length| (0..level).fold(length, |length, _| self.wavelet.coarser(length).unwrap_or(length)))
+        self.levels.size()
     }
 
     /// The points of the present level, row-major.
     pub fn points(&self) -> Vec<Vec4> {
-        let [rows, columns] = self.size();
-        self.points.chunks(self.columns).take(rows).flat_map(|row| row[..columns].to_vec()).collect()
+        self.levels.points(&self.points)
     }
 
     /// Whether a coarser level exists: both directions can be halved.
     pub fn can_go_down(&self) -> bool {
-        self.size().into_iter().all(|length| self.wavelet.coarser(length).is_some())
+        self.levels.can_go_down()
     }
 
-    /// One level coarser (`true`) or finer, on the device; without one, by the CPU twin. Nothing happens at the ends.
-    ///
-    /// # Errors
-    /// What the device refuses.
-    pub fn step(&mut self, gpu: Option<&Gpu>, is_down: bool) -> Result<(), GpuError> {
-        if (is_down && !self.can_go_down()) || (!is_down && self.level == 0) {
-            return Ok(());
+    /// One level coarser (`true`) or finer: the CPU twin of [`DevicePyramid::step`]. Nothing happens at the ends.
+    pub fn step(&mut self, is_down: bool) {
+        if let Some((region, directions)) = self.levels.step(is_down) {
+            directions.into_iter().for_each(|direction| self.step_along(is_down, region, direction));
         }
-        // The finer of the two levels is what a step works on.
-        let finer = if is_down { self.level } else { self.level - 1 };
-        let region = self.size_at(finer);
-        // Down along rows, then along columns; up the other way.
-        let directions = if is_down { [0, 1] } else { [1, 0] };
-        match gpu {
-            Some(gpu) => self.step_on_device(gpu, is_down, region, directions)?,
-            None => directions.into_iter().for_each(|direction| self.step_on_cpu(is_down, region, direction)),
-        }
-        self.level = if is_down { self.level + 1 } else { self.level - 1 };
-        Ok(())
     }
 
-    fn step_on_cpu(&mut self, is_down: bool, [rows, columns]: [usize; 2], direction: u32) {
+    fn step_along(&mut self, is_down: bool, [rows, columns]: [usize; 2], direction: u32) {
+        let Levels { wavelet, columns: width, .. } = self.levels;
         let (lines, length) = if direction == 0 { (rows, columns) } else { (columns, rows) };
         for line in 0..lines {
-            let at =
-                |k: usize| if direction == 0 { line * self.columns + k } else { k * self.columns + line };
+            let at = |k: usize| if direction == 0 { line * width + k } else { k * width + line };
             let values: Vec<Vec4> = (0..length).map(|k| self.points[at(k)]).collect();
-            for (k, value) in self.wavelet.line(is_down, &values).into_iter().enumerate() {
+            for (k, value) in wavelet.line(is_down, &values).into_iter().enumerate() {
                 self.points[at(k)] = value;
             }
         }
     }
+}
 
-    fn step_on_device(
-        &mut self,
-        gpu: &Gpu,
-        is_down: bool,
-        region: [usize; 2],
-        directions: [u32; 2],
-    ) -> Result<(), GpuError> {
-        let request = format!("{} of {} x {} points", self.wavelet.shader(is_down), region[0], region[1]);
-        let bytes = 16 * self.points.len() as u64;
+impl DevicePyramid {
+    /// The same grid at the same level on the device.
+    ///
+    /// # Errors
+    /// What the device refuses; more points than one of its buffers may have.
+    pub fn new(gpu: &Gpu, pyramid: &Pyramid) -> Result<Self, GpuError> {
+        let levels = pyramid.levels;
+        let request = format!("{} of {} x {} points", levels.wavelet.name(), levels.rows, levels.columns);
+        let bytes = size_of_val(&pyramid.points[..]) as u64;
         if bytes > gpu.largest_binding() {
             let reason = format!("{bytes} bytes of points, the device allows {}", gpu.largest_binding());
             return Err(GpuError::TooLarge { request, reason });
         }
-        let result = gpu.scoped(&request, || {
-            let mut before = gpu.upload("level", &self.points);
-            let mut after = gpu.reserve("next level", bytes);
-            let mut encoder = gpu.device().create_command_encoder(&Default::default());
+        let buffers = gpu.scoped(&request, || {
+            Ok([gpu.upload("level", &pyramid.points), gpu.reserve("step of a level", bytes)])
+        })?;
+        Ok(Self { gpu: gpu.clone(), levels, buffers })
+    }
+
+    /// How many steps lead down from the finest level.
+    pub fn level(&self) -> u32 {
+        self.levels.level
+    }
+
+    /// Rows and columns of the present level.
+    pub fn size(&self) -> [usize; 2] {
+        self.levels.size()
+    }
+
+    /// Whether a coarser level exists: both directions can be halved.
+    pub fn can_go_down(&self) -> bool {
+        self.levels.can_go_down()
+    }
+
+    /// The grid of the finest level's rows and columns; the present level is its first rows and columns.
+    pub fn buffer(&self) -> &wgpu::Buffer {
+        &self.buffers[0]
+    }
+
+    /// One level coarser (`true`) or finer; the work may not be done yet when this returns. Nothing happens at the ends.
+    ///
+    /// # Errors
+    /// What the device refuses.
+    pub fn step(&mut self, is_down: bool) -> Result<(), GpuError> {
+        let mut levels = self.levels;
+        let Some((region, directions)) = levels.step(is_down) else { return Ok(()) };
+        let shader = levels.wavelet.shader(is_down);
+        let request = format!("{shader} of {} x {} points", region[0], region[1]);
+        self.gpu.scoped(&request, || {
+            let mut encoder = self.gpu.device().create_command_encoder(&Default::default());
+            let [mut before, mut after] = self.buffers.each_ref();
             for direction in directions {
                 let step = Step {
-                    rows: self.rows as u32,
-                    columns: self.columns as u32,
+                    rows: levels.rows as u32,
+                    columns: levels.columns as u32,
                     region_rows: region[0] as u32,
                     region_columns: region[1] as u32,
                     direction,
                     unused: [0; 3],
                 };
-                let step = gpu.upload("step", &[step]);
-                let key = Key::new(self.wavelet.shader(is_down), "main");
-                gpu.dispatch(&mut encoder, &key, &[&step, &before, &after], self.points.len().div_ceil(64));
+                let step = self.gpu.upload("step", &[step]);
+                let points = levels.rows * levels.columns;
+                let key = Key::new(shader, "main");
+                self.gpu.dispatch(&mut encoder, &key, &[&step, before, after], points.div_ceil(64));
                 std::mem::swap(&mut before, &mut after);
             }
-            gpu.queue().submit([encoder.finish()]);
-            Ok(before)
+            self.gpu.queue().submit([encoder.finish()]);
+            Ok(())
         })?;
-        self.points = gpu.download(&request, &result, bytes)?;
+        self.levels = levels;
         Ok(())
+    }
+
+    /// The points of the present level, row-major.
+    ///
+    /// # Errors
+    /// What the device refuses.
+    pub fn points(&self) -> Result<Vec<Vec4>, GpuError> {
+        let bytes = 16 * (self.levels.rows * self.levels.columns) as u64;
+        let all: Vec<Vec4> = self.gpu.download("read a level", &self.buffers[0], bytes)?;
+        Ok(self.levels.points(&all))
     }
 }

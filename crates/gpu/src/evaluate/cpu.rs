@@ -12,11 +12,12 @@ use crate::{Places, Quantities, Request, Shape, Values};
 /// Points of a task.
 const TASK: usize = 16_384;
 
-pub(crate) fn values(request: &Request<'_>, quantities: Quantities) -> Values {
+/// `room` is used again for the points.
+pub(crate) fn values(request: &Request<'_>, quantities: Quantities, room: Vec<DVec3>) -> Values {
     let Request { shape, places } = request;
     let mut out = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     if quantities == Quantities::Points {
-        out.0 = points(shape, places);
+        out.0 = points(shape, places, room);
     } else {
         let all = jets(shape, places);
         let is_curve = matches!(shape.source, Source::Curve(_));
@@ -33,14 +34,15 @@ pub(crate) fn values(request: &Request<'_>, quantities: Quantities) -> Values {
     Values { quantities, data: Data::Double { points, normals, derivatives, curvatures } }
 }
 
-fn points(shape: &Shape, places: &Places) -> Vec<DVec3> {
+fn points(shape: &Shape, places: &Places, mut room: Vec<DVec3>) -> Vec<DVec3> {
     let domain = shape.domain();
     match (&shape.source, places) {
         (Source::Surface(surface), Places::Grid { us, vs }) => {
             let us: Vec<f64> = us.iter().map(|&u| domain[0].clamp(u)).collect();
             let vs: Vec<f64> = vs.iter().map(|&v| domain[1].clamp(v)).collect();
             if let (Surface::Nurbs(_), Some(net)) = (surface, &shape.net) {
-                return Product::new(net, shape.origin(), &vs).rows(&us);
+                Product::new(net, shape.origin(), &vs).rows(&us, &mut room);
+                return room;
             }
             let rows = (TASK / vs.len().max(1)).max(1);
             let blocks: Vec<Vec<DVec3>> = us.par_chunks(rows).map(|us| surface.grid(us, &vs)).collect();

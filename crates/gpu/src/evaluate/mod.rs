@@ -133,7 +133,8 @@ impl Evaluator {
         quantities: Quantities,
     ) -> Result<Vec<Values>, GpuError> {
         if self.backend == Backend::Cpu {
-            return Ok(requests.iter().map(|request| cpu::values(request, quantities)).collect());
+            let all = requests.iter().map(|request| cpu::values(request, quantities, Vec::new()));
+            return Ok(all.collect());
         }
         let stride = quantities.stride();
         let mut out: Vec<Option<Values>> = vec![None; requests.len()];
@@ -160,9 +161,31 @@ impl Evaluator {
             }
         }
         let rest = |(values, request): (Option<Values>, &Request<'_>)| {
-            values.unwrap_or_else(|| cpu::values(request, quantities))
+            values.unwrap_or_else(|| cpu::values(request, quantities, Vec::new()))
         };
         Ok(out.into_iter().zip(requests).map(rest).collect())
+    }
+
+    /// [`Evaluator::evaluate`] for those who evaluate often: `values` becomes the result, and [`Backend::Cpu`] writes
+    /// its points where those before lay. (On a device, [`Evaluator::prepare`] does as much.)
+    ///
+    /// # Errors
+    /// As [`Evaluator::evaluate`]; `values` is empty then.
+    pub fn evaluate_into(
+        &self,
+        requests: &[Request<'_>],
+        quantities: Quantities,
+        values: &mut Vec<Values>,
+    ) -> Result<(), GpuError> {
+        let mut old = std::mem::take(values).into_iter();
+        *values = match self.backend {
+            Backend::Cpu => {
+                let mut room = || old.next().map_or_else(Vec::new, Values::into_room);
+                requests.iter().map(|request| cpu::values(request, quantities, room())).collect()
+            }
+            _ => self.evaluate(requests, quantities)?,
+        };
+        Ok(())
     }
 
     /// Evaluates the requests whose shapes have a NURBS form and leaves the results on the device; the work may not be

@@ -1,12 +1,13 @@
 //! A grid of points as two products: the control net by the basis along u, the result by the basis along v.
 
 use glam::DVec3;
+use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 use trimloop_geom::nurbs::basis_functions;
 
 use crate::shape::Net;
 
-/// Points that one loop makes at a time.
+/// Points that one turn makes: the widest vector of any machine.
 const LANES: usize = 8;
 /// Points of a task.
 const TASK: usize = 16_384;
@@ -41,40 +42,51 @@ impl<'a> Product<'a> {
         Self { net, origin, planes, runs, columns: vs.len() }
     }
 
-    /// The points of the rows `us`, row-major.
-    pub fn rows(&self, us: &[f64]) -> Vec<DVec3> {
-        let mut out = vec![DVec3::ZERO; us.len() * self.columns];
+    /// The points of the rows `us`, row-major, in `out`, whose room is used again.
+    pub fn rows(&self, us: &[f64], out: &mut Vec<DVec3>) {
+        out.resize(us.len() * self.columns, DVec3::ZERO);
         if self.columns == 0 {
-            return out;
+            return;
         }
         let rows = (TASK / self.columns).max(1);
+        let arch = pulp::Arch::new();
         let blocks = out.par_chunks_mut(rows * self.columns).zip(us.par_chunks(rows));
-        blocks.for_each(|(out, us)| {
-            let arch = pulp::Arch::new();
-            arch.dispatch(|| self.block(us, out));
-        });
-        out
+        blocks.for_each(|(out, us)| arch.dispatch(Block { product: self, us, out }));
     }
+}
+
+/// Some rows of a grid.
+struct Block<'a, 'b> {
+    product: &'a Product<'a>,
+    us: &'b [f64],
+    out: &'b mut [DVec3],
+}
+
+impl WithSimd for Block<'_, '_> {
+    type Output = ();
 
     #[inline(always)]
-    fn block(&self, us: &[f64], out: &mut [DVec3]) {
-        match self.net.degrees[1] + 1 {
-            2 => self.block_of::<2>(us, out),
-            3 => self.block_of::<3>(us, out),
-            4 => self.block_of::<4>(us, out),
-            6 => self.block_of::<6>(us, out),
-            _ => self.block_of::<0>(us, out),
+    fn with_simd<S: Simd>(self, simd: S) {
+        match self.product.net.degrees[1] + 1 {
+            2 => self.rows::<S, 2>(simd),
+            3 => self.rows::<S, 3>(simd),
+            4 => self.rows::<S, 4>(simd),
+            6 => self.rows::<S, 6>(simd),
+            _ => self.rows::<S, 0>(simd),
         }
     }
+}
 
+impl Block<'_, '_> {
     /// `ORDER` is the order along v where it is known when compiling, else 0.
     #[inline(always)]
-    fn block_of<const ORDER: usize>(&self, us: &[f64], out: &mut [DVec3]) {
-        let count = self.net.shape[1];
+    fn rows<S: Simd, const ORDER: usize>(self, simd: S) {
+        let Self { product, us, out } = self;
+        let count = product.net.shape[1];
         let mut line = [0; 4].map(|_: i32| vec![0.0; count]);
-        for (&u, out) in us.iter().zip(out.chunks_exact_mut(self.columns)) {
-            let (first, weights) = basis(self.net, 0, u);
-            for (line, plane) in line.iter_mut().zip(&self.planes) {
+        for (&u, out) in us.iter().zip(out.chunks_exact_mut(product.columns)) {
+            let (first, weights) = basis(product.net, 0, u);
+            for (line, plane) in line.iter_mut().zip(&product.planes) {
                 line.fill(0.0);
                 for (i, &n) in weights.iter().enumerate() {
                     let row = &plane[(first + i) * count..][..count];
@@ -82,38 +94,42 @@ impl<'a> Product<'a> {
                 }
             }
             let mut out = out;
-            for run in &self.runs {
+            for run in &product.runs {
                 let (own, rest) = out.split_at_mut(run.len);
-                self.run::<ORDER>(&line, run, own);
+                product.run::<S, ORDER>(simd, &line, run, own);
                 out = rest;
             }
         }
     }
+}
 
+impl Product<'_> {
     #[inline(always)]
-    fn run<const ORDER: usize>(&self, line: &[Vec<f64>; 4], run: &Run, out: &mut [DVec3]) {
+    fn run<S: Simd, const ORDER: usize>(&self, simd: S, line: &[Vec<f64>; 4], run: &Run, out: &mut [DVec3]) {
         let order = if ORDER > 0 { ORDER } else { self.net.degrees[1] + 1 };
-        let [x, y, z, w] = line.each_ref().map(|plane| &plane[run.first..run.first + order]);
+        let control = line.each_ref().map(|plane| &plane[run.first..run.first + order]);
+        let origin = self.origin.to_array().map(|c| simd.splat_f64s(c));
+        let vectors = LANES / S::F64_LANES;
+        let (weights, _) = S::as_simd_f64s(&run.weights);
         for (block, out) in out.chunks_mut(LANES).enumerate() {
-            let mut sums = [[0.0; LANES]; 4];
-            for k in 0..order {
-                let weights = &run.weights[k * run.padded + block * LANES..][..LANES];
-                for lane in 0..LANES {
-                    sums[0][lane] += x[k] * weights[lane];
-                    sums[1][lane] += y[k] * weights[lane];
-                    sums[2][lane] += z[k] * weights[lane];
-                    sums[3][lane] += w[k] * weights[lane];
-                }
-            }
             let mut points = [[0.0; LANES]; 3];
-            for lane in 0..LANES {
-                let inverse = 1.0 / sums[3][lane];
-                points[0][lane] = sums[0][lane] * inverse + self.origin.x;
-                points[1][lane] = sums[1][lane] * inverse + self.origin.y;
-                points[2][lane] = sums[2][lane] * inverse + self.origin.z;
+            let [xs, ys, zs] = points.each_mut().map(|points| S::as_mut_simd_f64s(points).0);
+            for vector in 0..vectors {
+                let mut sums = [simd.splat_f64s(0.0); 4];
+                for k in 0..order {
+                    let weights = weights[(k * run.padded / LANES + block) * vectors + vector];
+                    for (sum, control) in sums.iter_mut().zip(&control) {
+                        *sum = simd.mul_add_e_f64s(simd.splat_f64s(control[k]), weights, *sum);
+                    }
+                }
+                let inverse = simd.div_f64s(simd.splat_f64s(1.0), sums[3]);
+                let place = |c: usize| simd.mul_add_e_f64s(sums[c], inverse, origin[c]);
+                (xs[vector], ys[vector], zs[vector]) = (place(0), place(1), place(2));
             }
-            for (lane, out) in out.iter_mut().enumerate() {
-                *out = DVec3::new(points[0][lane], points[1][lane], points[2][lane]);
+            let [x, y, z] = points;
+            match <&mut [DVec3; LANES]>::try_from(&mut *out) {
+                Ok(out) => *out = std::array::from_fn(|lane| DVec3::new(x[lane], y[lane], z[lane])),
+                Err(_) => (0..out.len()).for_each(|lane| out[lane] = DVec3::new(x[lane], y[lane], z[lane])),
             }
         }
     }
