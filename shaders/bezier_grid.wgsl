@@ -73,6 +73,6 @@ fn main(
         let row = lines[job.first_row + tile.start + r];
         let facet = facets[job.facet + row.span * job.facet_columns + column.span];
         let point = job.first_point + (tile.start + r) * job.columns + j;
-        write(point, finish(jet, row, column, facet));
+        write(point, finish(jet, row, column, facet), row, column);
     }
 }

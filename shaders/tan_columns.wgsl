@@ -43,6 +43,6 @@ fn main(
         }
         let facet = facets[job.facet + row.span * job.facet_columns + column.span];
         let point = job.first_point + select(i * job.columns + j, i, is_list);
-        write(point, finish(jet, row, column, facet));
+        write(point, finish(jet, row, column, facet), row, column);
     }
 }

@@ -48,6 +48,6 @@ fn main(
             }
         }
         let facet = facets[job.facet + row.span * job.facet_columns + column.span];
-        write(job.first_point + k, finish(jet, row, column, facet));
+        write(job.first_point + k, finish(jet, row, column, facet), row, column);
     }
 }

@@ -11,6 +11,6 @@ fn main(
 ) {
     let index = (workgroup.y * workgroups.x + workgroup.x) * 64u + local;
     if index < arrayLength(&points) {
-        found[index] = select(0u, 1u, is_inside(points[index]));
+        found[index] = select(0u, 1u, is_inside(0u, points[index]));
     }
 }

@@ -18,8 +18,9 @@ struct Line {
     // First and second derivative of the backend's parameter with respect to the caller's.
     slope: f32,
     bend: f32,
-    unused_0: f32,
-    unused_1: f32,
+    // Where it stands in the shape's domain, as a share.
+    share: f32,
+    unused: f32,
 }
 
 // The number of this invocation, where workgroups stand in rows.

@@ -2,14 +2,19 @@
 // towards +u counts the curves that it crosses among those of the point's band of v.
 
 struct TrimHeader {
-    // Cells along u, along v.
+    // Cells along u, along v; bands.
     columns: u32,
     rows: u32,
     bands: u32,
+    // Where its tables begin in those of all: words of cells, bands, entries, curves.
+    first_word: u32,
+    first_band: u32,
+    first_entry: u32,
+    first_curve: u32,
     unused: u32,
 }
 
-@group(0) @binding(0) var<storage, read> header: TrimHeader;
+@group(0) @binding(0) var<storage, read> headers: array<TrimHeader>;
 // 0 outside, 1 inside, 2 mixed; four bits each, eight in a word, row-major over v.
 @group(0) @binding(1) var<storage, read> cells: array<u32>;
 // First entry of each band in `entries`; one more than there are bands.
@@ -63,21 +68,23 @@ fn crosses(curve: u32, uv: vec2<f32>) -> bool {
     return cubic(u, 0.5 * (low + high)) > uv.x;
 }
 
-fn is_inside(uv: vec2<f32>) -> bool {
+fn is_inside(face: u32, uv: vec2<f32>) -> bool {
+    let header = headers[face];
     if uv.x < 0.0 || uv.y < 0.0 || uv.x > 1.0 || uv.y > 1.0 {
         return false;
     }
     let column = min(u32(uv.x * f32(header.columns)), header.columns - 1u);
     let row = min(u32(uv.y * f32(header.rows)), header.rows - 1u);
     let cell = row * header.columns + column;
-    let state = (cells[cell / 8u] >> (4u * (cell % 8u))) & 15u;
+    let state = (cells[header.first_word + cell / 8u] >> (4u * (cell % 8u))) & 15u;
     if state < 2u {
         return state == 1u;
     }
     let band = min(u32(uv.y * f32(header.bands)), header.bands - 1u);
     var inside = false;
-    for (var k = bands[band]; k < bands[band + 1u]; k++) {
-        inside = inside != crosses(entries[k], uv);
+    let at = header.first_band + band;
+    for (var k = bands[at]; k < bands[at + 1u]; k++) {
+        inside = inside != crosses(header.first_curve + entries[header.first_entry + k], uv);
     }
     return inside;
 }

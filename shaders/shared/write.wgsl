@@ -1,9 +1,9 @@
-// A point's outcome into `out`, STRIDE vectors per point.
-fn write(point: u32, found: Outcome) {
+// A point's outcome into `out`, STRIDE vectors per point; after the position the share along u, after the normal along v.
+fn write(point: u32, found: Outcome, row: Line, column: Line) {
     let base_out = point * STRIDE;
-    out[base_out] = vec4<f32>(found.point, 1.0);
+    out[base_out] = vec4<f32>(found.point, row.share);
     if STRIDE >= 2u {
-        out[base_out + 1u] = vec4<f32>(found.normal, 0.0);
+        out[base_out + 1u] = vec4<f32>(found.normal, column.share);
     }
     if STRIDE >= 4u {
         out[base_out + 2u] = vec4<f32>(found.du, 0.0);

@@ -23,7 +23,8 @@ pub(crate) struct Line {
     pub inward: f32,
     pub slope: f32,
     pub bend: f32,
-    pub unused: [u32; 2],
+    pub share: f32,
+    pub unused: u32,
 }
 
 /// As in `shaders/shared/job.wgsl`.
@@ -260,9 +261,13 @@ impl Batch {
 
     fn add(&mut self, piece: &Piece<'_>, placed: Placed, backend: Backend) {
         let first = self.lines.len() as u32;
-        let line = |d: usize, t: f64| match backend {
-            Backend::Bezier => bezier_line(piece.net, piece.shape.bezier(piece.net), d, t),
-            _ => knot_line(piece.net, d, t, placed.knots[d]),
+        let domain = piece.shape.domain();
+        let line = |d: usize, t: f64| {
+            let share = ((t - domain[d].start) / domain[d].length()).clamp(0.0, 1.0);
+            match backend {
+                Backend::Bezier => bezier_line(piece.net, piece.shape.bezier(piece.net), d, t, share),
+                _ => knot_line(piece.net, d, t, share, placed.knots[d]),
+            }
         };
         match piece.places {
             Places::Grid { us, vs } => {
@@ -348,7 +353,7 @@ fn usable_span(ends: &[f64], span: usize, domain: f64) -> usize {
     ahead.or_else(|| (0..span).rev().find(is_usable)).unwrap_or(span)
 }
 
-fn bezier_line(net: &Net, bezier: &Bezier, d: usize, u: f64) -> Line {
+fn bezier_line(net: &Net, bezier: &Bezier, d: usize, u: f64, share: f64) -> Line {
     let degree = net.degrees[d];
     let [t, slope, bend] = net.maps[d].at(u);
     let breaks = &bezier.breaks[d];
@@ -370,11 +375,12 @@ fn bezier_line(net: &Net, bezier: &Bezier, d: usize, u: f64) -> Line {
         inward: inward(net, d, t),
         slope: (slope / length) as f32,
         bend: (bend / length) as f32,
-        unused: [0; 2],
+        share: share as f32,
+        unused: 0,
     }
 }
 
-fn knot_line(net: &Net, d: usize, u: f64, first_knot: u32) -> Line {
+fn knot_line(net: &Net, d: usize, u: f64, share: f64, first_knot: u32) -> Line {
     let degree = net.degrees[d];
     let [t, slope, bend] = net.maps[d].at(u);
     let domain = net.domain(d);
@@ -398,6 +404,7 @@ fn knot_line(net: &Net, d: usize, u: f64, first_knot: u32) -> Line {
         inward: inward(net, d, t),
         slope: (slope / length) as f32,
         bend: (bend / length) as f32,
-        unused: [0; 2],
+        share: share as f32,
+        unused: 0,
     }
 }

@@ -37,6 +37,6 @@ pub use faces::{FaceShape, FaceShapes};
 pub use lod_factors::{LodShape, LodView, lod_cells};
 pub use request::{Backend, Places, Quantities, Request, Values};
 pub use shape::Shape;
-pub use trim_classify::TrimTable;
+pub use trim_classify::{Cover, TrimHeader, TrimTable};
 pub use trim_fan::{CHANNELS, TrimFans, TrimTexture, trim_textures};
 pub use wavelet::{DevicePyramid, Pyramid, Wavelet};

@@ -11,11 +11,44 @@ use crate::{Gpu, GpuError};
 pub struct TrimTable {
     low: DVec2,
     extent: DVec2,
-    header: [u32; 4],
+    header: TrimHeader,
     cells: Vec<u32>,
     bands: Vec<u32>,
     entries: Vec<u32>,
     curves: Vec<Vec4>,
+}
+
+/// Sizes of a table, and where it lies among others; as in `shaders/shared/trim.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub struct TrimHeader {
+    /// Cells along u.
+    pub columns: u32,
+    /// Cells along v.
+    pub rows: u32,
+    /// Bands of v.
+    pub bands: u32,
+    /// First word of its cells.
+    pub first_word: u32,
+    /// First of its bands.
+    pub first_band: u32,
+    /// First of its entries.
+    pub first_entry: u32,
+    /// First of its curves.
+    pub first_curve: u32,
+    /// Nothing.
+    pub unused: u32,
+}
+
+/// What a rectangle of the parameter plane holds of a face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cover {
+    /// Nothing.
+    None,
+    /// All of it is inside.
+    Whole,
+    /// A trim curve may pass through.
+    Part,
 }
 
 const OUTSIDE: u32 = 0;
@@ -57,7 +90,7 @@ impl TrimTable {
         let mut table = Self {
             low,
             extent,
-            header: [side, side, band_count, 0],
+            header: TrimHeader { columns: side, rows: side, bands: band_count, ..TrimHeader::default() },
             cells: Vec::new(),
             bands,
             entries,
@@ -89,7 +122,7 @@ impl TrimTable {
                 format!("classify {} points against {} trim curves", points.len(), self.curves.len() / 2);
             let found = gpu.scoped(&name, || {
                 let units: Vec<Vec2> = points.iter().map(|&uv| self.normalized(uv)).collect();
-                let header = gpu.upload("trim header", &self.header);
+                let header = gpu.upload("trim header", &[self.header]);
                 let cells = gpu.upload("trim cells", &self.cells);
                 let bands = gpu.upload("trim bands", &self.bands);
                 let entries = gpu.upload("trim entries", &self.entries);
@@ -113,6 +146,50 @@ impl TrimTable {
         Ok(out)
     }
 
+    /// What the rectangle between two points (u, v) holds.
+    pub fn cover(&self, a: DVec2, b: DVec2) -> Cover {
+        let (a, b) = ((a - self.low) / self.extent, (b - self.low) / self.extent);
+        let TrimHeader { columns, rows, .. } = self.header;
+        let cell = |x: f64, count: u32| ((x * f64::from(count)).floor().max(0.0) as u32).min(count - 1);
+        let (low, high) = (a.min(b) - SLACK, a.max(b) + SLACK);
+        let mut found = None;
+        for row in cell(low.y, rows)..=cell(high.y, rows) {
+            for column in cell(low.x, columns)..=cell(high.x, columns) {
+                let state = self.state(row * columns + column);
+                if state == MIXED || found.is_some_and(|before| before != state) {
+                    return Cover::Part;
+                }
+                found = Some(state);
+            }
+        }
+        if found == Some(INSIDE) { Cover::Whole } else { Cover::None }
+    }
+
+    /// Sizes of the tables.
+    pub fn header(&self) -> TrimHeader {
+        self.header
+    }
+
+    /// States of the cells, four bits each.
+    pub fn words(&self) -> &[u32] {
+        &self.cells
+    }
+
+    /// First entry of each band, and the end of the last.
+    pub fn bands(&self) -> &[u32] {
+        &self.bands
+    }
+
+    /// Numbers of curves, band by band.
+    pub fn entries(&self) -> &[u32] {
+        &self.entries
+    }
+
+    /// The control points of the curves, two vectors each.
+    pub fn curves(&self) -> &[Vec4] {
+        &self.curves
+    }
+
     fn normalized(&self, uv: DVec2) -> Vec2 {
         ((uv - self.low) / self.extent).as_vec2()
     }
@@ -125,7 +202,7 @@ impl TrimTable {
         if uv.x < 0.0 || uv.y < 0.0 || uv.x > 1.0 || uv.y > 1.0 {
             return false;
         }
-        let [columns, rows, ..] = self.header;
+        let TrimHeader { columns, rows, .. } = self.header;
         let column = ((uv.x * columns as f32) as u32).min(columns - 1);
         let row = ((uv.y * rows as f32) as u32).min(rows - 1);
         match self.state(row * columns + column) {
@@ -135,7 +212,7 @@ impl TrimTable {
     }
 
     fn crossings(&self, uv: Vec2) -> usize {
-        let count = self.header[2];
+        let count = self.header.bands;
         let band = ((uv.y * count as f32) as u32).min(count - 1) as usize;
         let range = self.bands[band] as usize..self.bands[band + 1] as usize;
         self.entries[range].iter().filter(|&&curve| self.crosses(curve as usize, uv)).count()

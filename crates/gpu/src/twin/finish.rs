@@ -31,7 +31,7 @@ pub(super) fn finish(
 ) {
     let inverse = 1.0 / jet.a.w;
     let s = jet.a.xyz() * inverse;
-    out[0] = (s + facet.origin).extend(1.0);
+    out[0] = (s + facet.origin).extend(row.share);
     if quantities < Quantities::Normals {
         return;
     }
@@ -41,7 +41,7 @@ pub(super) fn finish(
     let is_surface = column.degree > 0;
     let inward = [row.inward, column.inward];
     let normal = if is_surface { unit_normal(du, dv, duv, inward, facet) } else { Vec3::ZERO };
-    out[1] = normal.extend(0.0);
+    out[1] = normal.extend(column.share);
     if quantities < Quantities::First {
         return;
     }
