@@ -174,7 +174,7 @@ impl Gpu {
     }
 
     /// A buffer that textures are copied into.
-    pub(crate) fn reserve_for_copies(&self, label: &str, bytes: u64) -> wgpu::Buffer {
+    pub fn reserve_for_copies(&self, label: &str, bytes: u64) -> wgpu::Buffer {
         self.0.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size: bytes,
@@ -184,7 +184,10 @@ impl Gpu {
     }
 
     /// The content of a buffer, as soon as what was submitted is done.
-    pub(crate) fn download<T: bytemuck::Pod>(
+    ///
+    /// # Errors
+    /// What the device refuses; the text names `request`.
+    pub fn download<T: bytemuck::Pod>(
         &self,
         request: &str,
         buffer: &wgpu::Buffer,

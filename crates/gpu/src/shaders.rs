@@ -36,4 +36,8 @@ const SHADERS: &[(&str, &[&str])] = &[
     shader!("lifting_up", "wavelet"),
     shader!("tan_rows", "line", "job", "de_boor"),
     shader!("tan_columns", "line", "job", "de_boor", "finish", "write"),
+    shader!("surface", "trim", "frame", "shade"),
+    shader!("border", "frame", "shade", "segment"),
+    shader!("edge", "frame", "segment"),
+    shader!("compose"),
 ];

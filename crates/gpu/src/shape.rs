@@ -134,6 +134,25 @@ impl Shape {
         }
     }
 
+    /// The surface; none of a curve.
+    pub fn as_surface(&self) -> Option<&Surface> {
+        match &self.source {
+            Source::Surface(surface) => Some(surface),
+            Source::Curve(_) => None,
+        }
+    }
+
+    /// Points and derivatives in f64 at every pair of parameters, row-major, rows running over u.
+    pub fn derivatives_grid(&self, us: &[f64], vs: &[f64]) -> Vec<Derivatives> {
+        match &self.source {
+            Source::Surface(surface) => surface.derivatives_grid(us, vs),
+            Source::Curve(_) => {
+                let row = |&u: &f64| vs.iter().map(move |&v| self.derivatives(DVec2::new(u, v)));
+                us.iter().flat_map(row).collect()
+            }
+        }
+    }
+
     /// Unit normal in f64; zero for a curve, and where there is none.
     pub fn normal(&self, uv: DVec2) -> DVec3 {
         match &self.source {

@@ -67,6 +67,15 @@ impl TrimTable {
         let points = || chains.iter().flatten().flatten().copied();
         let (low, high) =
             points().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        Self::within(chains, cells, low, high)
+    }
+
+    /// The same with the rectangle from `low` to `high` as the unit square.
+    ///
+    /// # Errors
+    /// Where the rectangle is empty, or numbers make no sense.
+    pub fn within(chains: &[Vec<Cubic>], cells: u32, low: DVec2, high: DVec2) -> Result<Self, GpuError> {
+        let points = || chains.iter().flatten().flatten().copied();
         let extent = high - low;
         let is_finite = extent.is_finite() && points().all(DVec2::is_finite);
         if !(is_finite && extent.cmpgt(DVec2::ZERO).all()) {

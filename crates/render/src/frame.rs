@@ -1,0 +1,369 @@
+//! What a view needs: which faces are seen, how fine, and the tables that the passes read.
+
+use std::ops::Range;
+
+use glam::{DAffine3, DVec3, Mat4, Vec2, Vec3, Vec4};
+use rayon::prelude::*;
+use trimloop_brep::Rgba;
+
+use crate::camera::{Camera, Projection};
+use crate::look::{Look, linear};
+use crate::scene::{FaceKind, Instance, Scene, SceneFace};
+use crate::stage::{PieceKey, SEGMENTS, Stage, Strip, VERTICES};
+
+/// As in `shaders/shared/frame.wgsl`.
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(crate) struct View {
+    clip: Mat4,
+    size: Vec2,
+    pixel: f32,
+    is_parallel: u32,
+    up: Vec3,
+    border: f32,
+    section: Vec4,
+    edge: Vec4,
+    edge_width: f32,
+    border_shift: f32,
+    edge_shift: f32,
+    near: f32,
+}
+
+/// As in `shaders/shared/frame.wgsl`.
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(crate) struct Item {
+    rows: [Vec4; 3],
+    color: [f32; 4],
+    trim: u32,
+    id: u32,
+    unused: [u32; 2],
+}
+
+/// A part of the picture, pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Tile {
+    pub column: u32,
+    pub row: u32,
+    pub size: [u32; 2],
+    /// Pixels that the picture is moved by, for samples between pixels.
+    pub jitter: [f64; 2],
+}
+
+/// What is looked at from where, and how exactly.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shot<'a> {
+    pub scene: &'a Scene,
+    pub camera: &'a Camera,
+    pub look: &'a Look,
+    /// Pixels of the whole picture.
+    pub size: [u32; 2],
+}
+
+/// A face in the picture.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Visible {
+    pub instance: u32,
+    pub key: PieceKey,
+    /// Its sphere in the eye's coordinates.
+    center: DVec3,
+    radius: f64,
+}
+
+/// The tables of a tile.
+#[derive(Debug, Default)]
+pub(crate) struct Lists {
+    pub items: Vec<Item>,
+    /// Vertices of faces.
+    pub blocks: Vec<[u32; 2]>,
+    /// Triangles: opaque and whole, opaque and trimmed, transparent and whole, transparent and trimmed.
+    pub indices: Vec<u32>,
+    pub ranges: [Range<u32>; 4],
+    pub borders: Vec<[u32; 2]>,
+    pub edges: Vec<[u32; 2]>,
+    pub lines: Vec<[u32; 2]>,
+    /// By an item's id, less one: the instance and the face.
+    pub faces: Vec<(u32, u32)>,
+}
+
+/// Half the width of borders, pixels.
+const BORDER_PX: f32 = 0.3;
+const BORDER_SHIFT_PX: f32 = 0.5;
+const EDGE_PX: f32 = 0.7;
+const EDGE_SHIFT_PX: f32 = 2.0;
+/// Of what a picture may be off, the share for the distance between triangles and surface.
+const GEOMETRY: f64 = 0.5;
+/// A sphere that the eye is inside of counts as this share of its radius away.
+const INSIDE: f64 = 0.02;
+
+impl Shot<'_> {
+    /// The faces in the picture, with the level of detail that each needs.
+    pub fn visible(&self) -> Vec<Visible> {
+        let whole = Tile { column: 0, row: 0, size: self.size, jitter: [0.0; 2] };
+        let frustum = Frustum::new(self, &whole);
+        let per_instance = |(index, instance): (usize, &Instance)| {
+            let faces = (0u32..).zip(&self.scene.parts[instance.part].faces);
+            let placed = Placed::new(self.camera, &instance.transform);
+            let visible = faces.filter_map(|(number, face)| {
+                if face.is_hidden {
+                    return None;
+                }
+                let center = placed.point(face.sphere.0);
+                let radius = face.sphere.1 * placed.scale;
+                if !frustum.holds(center, radius) {
+                    return None;
+                }
+                let level = self.level(center, radius, placed.scale);
+                let key = PieceKey { part: instance.part as u32, face: number, level };
+                Some(Visible { instance: index as u32, key, center, radius })
+            });
+            visible.collect::<Vec<_>>()
+        };
+        let shown: Vec<(usize, &Instance)> =
+            self.scene.instances.iter().enumerate().filter(|(_, i)| i.is_shown).collect();
+        let all: Vec<Vec<Visible>> = shown.into_par_iter().map(per_instance).collect();
+        all.concat()
+    }
+
+    /// How far off the surface may be, as a power of two, millimetres.
+    fn level(&self, center: DVec3, radius: f64, scale: f64) -> i32 {
+        let depth = if self.camera.is_parallel() {
+            1.0
+        } else {
+            (-center.z - radius).max(INSIDE * radius).max(f64::MIN_POSITIVE)
+        };
+        let off = self.look.screen_error_px * GEOMETRY * self.camera.pixel(self.size[1]) * depth / scale;
+        off.log2().floor().clamp(-60.0, 60.0) as i32
+    }
+
+    /// The tables of a tile, once everything in `visible` is evaluated.
+    pub fn lists(&self, stage: &Stage, visible: &[Visible], tile: &Tile) -> Lists {
+        let frustum = Frustum::new(self, tile);
+        let mut lists = Lists::default();
+        let mut indices: [Vec<u32>; 4] = Default::default();
+        let mut placed: Option<(u32, Placed)> = None;
+        for one in visible.iter().filter(|one| frustum.holds(one.center, one.radius)) {
+            let instance = &self.scene.instances[one.instance as usize];
+            let placed = match &placed {
+                Some((index, placed)) if *index == one.instance => placed,
+                _ => &placed.insert((one.instance, Placed::new(self.camera, &instance.transform))).1,
+            };
+            let face = &self.scene.parts[instance.part].faces[one.key.face as usize];
+            let staged = &stage.faces[instance.part][one.key.face as usize];
+            let color = self.color(instance, face);
+            let item = lists.items.len() as u32;
+            lists.faces.push((one.instance, one.key.face));
+            lists.items.push(placed.item(staged.origin, color, staged.trim, item + 1));
+            lists.add_strip(item, &staged.edges, Kind::Edge);
+            let evaluated = || stage.piece(&one.key);
+            let Some(piece) = staged.triangles.as_ref().or_else(evaluated) else { continue };
+            let is_clear = color[3] < 0.999;
+            if !is_clear {
+                lists.add_strip(item, &staged.border, Kind::Border);
+            }
+            let base = (lists.blocks.len() * VERTICES) as u32;
+            let blocks = (0..piece.blocks).map(|k| [item, piece.first_vertex + k * VERTICES as u32]);
+            lists.blocks.extend(blocks);
+            let first = if is_clear { 2 } else { 0 };
+            indices[first].extend(piece.triangles.whole.iter().map(|k| base + k));
+            indices[first + 1].extend(piece.triangles.part.iter().map(|k| base + k));
+        }
+        self.add_curves(stage, &mut lists);
+        for (range, own) in lists.ranges.iter_mut().zip(indices) {
+            *range = lists.indices.len() as u32..(lists.indices.len() + own.len()) as u32;
+            lists.indices.extend(own);
+        }
+        lists
+    }
+
+    fn add_curves(&self, stage: &Stage, lists: &mut Lists) {
+        for instance in self.scene.instances.iter().filter(|i| i.is_shown) {
+            let curves = &stage.curves[instance.part];
+            if curves.is_empty() {
+                continue;
+            }
+            let placed = Placed::new(self.camera, &instance.transform);
+            for (curve, (_, color)) in curves.iter().zip(&self.scene.parts[instance.part].curves) {
+                let color = linear(instance.color.or(*color).unwrap_or(Rgba::opaque(0.1, 0.1, 0.1)));
+                let item = lists.items.len() as u32;
+                lists.items.push(placed.item(curve.origin, color, 0, 0));
+                lists.add_strip(item, &curve.strip, Kind::Line);
+            }
+        }
+    }
+
+    fn color(&self, instance: &Instance, face: &SceneFace) -> [f32; 4] {
+        linear(instance.color.or(face.color).unwrap_or(self.look.color))
+    }
+
+    /// The view of a tile.
+    pub fn view(&self, tile: &Tile) -> View {
+        let camera = self.camera;
+        let [width, height] = tile.size.map(f64::from);
+        let pixel = camera.pixel(self.size[1]);
+        // The tile's middle, pixels from that of the picture: to the right, up.
+        let [x, y] = self.middle(tile);
+        let scale = [2.0 / (width * pixel), 2.0 / (height * pixel)];
+        let shift = [-2.0 * x / width, -2.0 * y / height];
+        let (near, far) = self.depths();
+        let clip = if camera.is_parallel() {
+            let range = 1.0 / (near - far);
+            [
+                [scale[0], 0.0, 0.0, 0.0],
+                [0.0, scale[1], 0.0, 0.0],
+                [0.0, 0.0, range, 0.0],
+                [shift[0], shift[1], -far * range, 1.0],
+            ]
+        } else {
+            [
+                [scale[0], 0.0, 0.0, 0.0],
+                [0.0, scale[1], 0.0, 0.0],
+                [-shift[0], -shift[1], 0.0, -1.0],
+                [0.0, 0.0, near, 0.0],
+            ]
+        };
+        let section = self.look.section.map_or(Vec4::ZERO, |section| {
+            let normal = camera.rotation() * section.normal;
+            let offset = section.normal.dot(camera.eye) - section.offset_mm;
+            normal.extend(offset).as_vec4()
+        });
+        let up = (camera.rotation() * DVec3::Z).as_vec3();
+        View {
+            clip: Mat4::from_cols_array_2d(&clip.map(|column| column.map(|x| x as f32))),
+            size: Vec2::new(width as f32, height as f32),
+            pixel: pixel as f32,
+            is_parallel: u32::from(camera.is_parallel()),
+            up,
+            border: BORDER_PX,
+            section,
+            edge: Vec4::new(0.012, 0.014, 0.018, 1.0),
+            edge_width: EDGE_PX,
+            border_shift: BORDER_SHIFT_PX,
+            edge_shift: EDGE_SHIFT_PX,
+            near: near as f32,
+        }
+    }
+
+    fn middle(&self, tile: &Tile) -> [f64; 2] {
+        [
+            f64::from(tile.column) + 0.5 * f64::from(tile.size[0]) - 0.5 * f64::from(self.size[0])
+                + tile.jitter[0],
+            0.5 * f64::from(self.size[1]) - f64::from(tile.row) - 0.5 * f64::from(tile.size[1])
+                + tile.jitter[1],
+        ]
+    }
+
+    /// Perspective: the nearest distance that is drawn. Parallel: z of what is nearest and farthest.
+    fn depths(&self) -> (f64, f64) {
+        let mut low = f64::INFINITY;
+        let mut high = f64::NEG_INFINITY;
+        for instance in self.scene.instances.iter().filter(|i| i.is_shown) {
+            let placed = Placed::new(self.camera, &instance.transform);
+            let part = &self.scene.parts[instance.part];
+            let corners = trimloop_geom::Aabb::from_points(part.outline.iter().copied()).corners();
+            for corner in corners.into_iter().filter(|c| c.is_finite()) {
+                let z = placed.point(corner).z;
+                (low, high) = (low.min(z), high.max(z));
+            }
+        }
+        let size = (high - low).max(1e-6);
+        if !size.is_finite() {
+            return (1.0, 0.0);
+        }
+        let pad = 0.01 * size;
+        if self.camera.is_parallel() {
+            (high + pad, low - pad)
+        } else {
+            ((-high).max(1e-5 * size) * 0.5, 0.0)
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Border,
+    Edge,
+    Line,
+}
+
+impl Lists {
+    fn add_strip(&mut self, item: u32, strip: &Strip, kind: Kind) {
+        let list = match kind {
+            Kind::Border => &mut self.borders,
+            Kind::Edge => &mut self.edges,
+            Kind::Line => &mut self.lines,
+        };
+        list.extend((0..strip.blocks).map(|k| [item, strip.first + k * SEGMENTS as u32]));
+    }
+}
+
+/// From an instance's coordinates to the eye's.
+#[derive(Clone, Copy, Debug)]
+struct Placed {
+    matrix: DAffine3,
+    /// The largest factor that lengths are multiplied with.
+    scale: f64,
+}
+
+impl Placed {
+    fn new(camera: &Camera, transform: &DAffine3) -> Self {
+        let rotation = camera.rotation();
+        let matrix = DAffine3 {
+            matrix3: rotation * transform.matrix3,
+            translation: rotation * (transform.translation - camera.eye),
+        };
+        let m = matrix.matrix3;
+        let scale = m.x_axis.length().max(m.y_axis.length()).max(m.z_axis.length());
+        Self { matrix, scale }
+    }
+
+    fn point(&self, p: DVec3) -> DVec3 {
+        self.matrix.transform_point3(p)
+    }
+
+    fn item(&self, origin: DVec3, color: [f32; 4], trim: u32, id: u32) -> Item {
+        let m = self.matrix.matrix3.transpose();
+        let t = self.point(origin);
+        let rows = [m.x_axis.extend(t.x), m.y_axis.extend(t.y), m.z_axis.extend(t.z)];
+        Item { rows: rows.map(|row| row.as_vec4()), color, trim, id, unused: [0; 2] }
+    }
+}
+
+/// The planes around a tile, in the eye's coordinates; normals point inwards.
+#[derive(Debug)]
+struct Frustum {
+    sides: [(DVec3, f64); 4],
+    is_parallel: bool,
+}
+
+impl Frustum {
+    fn new(shot: &Shot<'_>, tile: &Tile) -> Self {
+        let pixel = shot.camera.pixel(shot.size[1]);
+        let middle = shot.middle(tile);
+        // Strips reach a little farther than what they belong to.
+        let half = tile.size.map(|n| 0.5 * f64::from(n) + 2.0);
+        let [left, right] = [middle[0] - half[0], middle[0] + half[0]].map(|x| x * pixel);
+        let [lower, upper] = [middle[1] - half[1], middle[1] + half[1]].map(|y| y * pixel);
+        let is_parallel = matches!(shot.camera.projection, Projection::Parallel { .. });
+        let side = |axis: DVec3, at: f64| {
+            if is_parallel {
+                (axis, -at * axis.element_sum())
+            } else {
+                ((axis + DVec3::Z * at * axis.element_sum()).normalize(), 0.0)
+            }
+        };
+        let sides =
+            [side(DVec3::X, left), side(-DVec3::X, right), side(DVec3::Y, lower), side(-DVec3::Y, upper)];
+        Self { sides, is_parallel }
+    }
+
+    fn holds(&self, center: DVec3, radius: f64) -> bool {
+        let is_ahead = self.is_parallel || center.z - radius < 0.0;
+        is_ahead && self.sides.iter().all(|(normal, offset)| normal.dot(center) + offset >= -radius)
+    }
+}
+
+/// Whether a face is drawn at all.
+pub(crate) fn is_evaluated(face: &SceneFace) -> bool {
+    matches!(face.kind, FaceKind::Surface(_))
+}

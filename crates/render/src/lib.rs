@@ -1,0 +1,40 @@
+//! Draws exact models: trimmed NURBS are evaluated on the GPU for each view and trimmed in each fragment, so that they
+//! are sharp at every zoom.
+//!
+//! ```no_run
+//! use trimloop_render::{Camera, Direction, Look, Projection, Renderer, Scene, Up};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let model = trimloop_import::read("part.step".as_ref(), &trimloop_import::ImportOptions::default())?;
+//! let scene = Scene::new(&model, &trimloop_mesh::Silent)?;
+//! let mut renderer = Renderer::new(&trimloop_gpu::Gpu::headless()?, scene)?;
+//! let view = Projection::Perspective { fov_y_rad: 0.6 };
+//! let camera = Camera::fit(&renderer.scene().outline(), Direction::ISO, Up::Z, view, 4.0 / 3.0).expect("a face");
+//! let picture = renderer.picture(&camera, [1280, 960], &Look::default())?;
+//! std::fs::write("part.png", picture.to_png()?)?;
+//! # Ok(())
+//! # }
+//! ```
+
+mod arena;
+mod border;
+mod camera;
+mod error;
+mod frame;
+mod grid;
+mod look;
+mod passes;
+mod picture;
+mod renderer;
+mod scene;
+mod stage;
+mod surface_face;
+mod targets;
+
+pub use camera::{Camera, Direction, Projection, Up};
+pub use error::RenderError;
+pub use look::{Background, EdgeStyle, Look, Section};
+pub use picture::{Pick, Picture, Seen};
+pub use renderer::{FrameStatistics, Renderer};
+pub use scene::{FaceKind, Instance, Scene, SceneFace, ScenePart, Triangles};
+pub use surface_face::SurfaceFace;

@@ -1,0 +1,70 @@
+//! What a picture looks like.
+
+use glam::DVec3;
+use trimloop_brep::Rgba;
+
+/// What a picture looks like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// What is behind the model.
+    pub background: Background,
+    /// The faces' edges.
+    pub edges: EdgeStyle,
+    /// Samples of a pixel: 1, 4, or a multiple of 4.
+    pub samples: u32,
+    /// Pixels that what is drawn may be away from the exact model.
+    pub screen_error_px: f64,
+    /// The colour of faces without one.
+    pub color: Rgba,
+    /// What is cut away.
+    pub section: Option<Section>,
+}
+
+/// What is behind the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Background {
+    /// From the upper to the lower border.
+    Gradient(Rgba, Rgba),
+    /// One colour; transparent with an opacity of 0.
+    Plain(Rgba),
+}
+
+/// How edges are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum EdgeStyle {
+    /// Not at all.
+    None,
+    /// Those that are seen.
+    #[default]
+    Visible,
+    /// Those behind faces too, paler.
+    Hidden,
+}
+
+/// Everything on the side that `normal` points to is cut away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Section {
+    /// Unit normal, in the model's coordinates.
+    pub normal: DVec3,
+    /// Where the plane cuts the normal, millimetres from the origin.
+    pub offset_mm: f64,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self {
+            background: Background::Gradient(Rgba::opaque(0.93, 0.95, 0.97), Rgba::opaque(0.72, 0.76, 0.81)),
+            edges: EdgeStyle::Visible,
+            samples: 4,
+            screen_error_px: 0.5,
+            color: Rgba::opaque(0.73, 0.75, 0.78),
+            section: None,
+        }
+    }
+}
+
+/// An sRGB colour as light.
+pub(crate) fn linear(color: Rgba) -> [f32; 4] {
+    let decode = |c: f32| if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };
+    [decode(color.r), decode(color.g), decode(color.b), color.a]
+}

@@ -1,0 +1,563 @@
+//! Draws pictures of a scene.
+
+use std::time::Instant;
+
+use rustc_hash::FxHashSet;
+use trimloop_gpu::{Backend, Evaluator, Gpu, GpuError};
+use wgpu::util::DeviceExt;
+
+use crate::RenderError;
+use crate::camera::Camera;
+use crate::error::MOST_PIXELS;
+use crate::frame::{Lists, Shot, Tile, Visible, is_evaluated};
+use crate::look::{Background, EdgeStyle, Look, linear};
+use crate::passes::{Pass, Passes};
+use crate::picture::{Pick, Picture, Seen};
+use crate::scene::Scene;
+use crate::stage::{PieceKey, SEGMENTS, Stage};
+use crate::targets::{IdTargets, Target, Targets, depth_attachment, view_of};
+
+/// Draws pictures of a scene.
+#[derive(Debug)]
+pub struct Renderer {
+    gpu: Gpu,
+    scene: Scene,
+    evaluator: Evaluator,
+    stage: Stage,
+    passes: Passes,
+    targets: Option<Targets>,
+    statistics: FrameStatistics,
+}
+
+/// What the last picture took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrameStatistics {
+    /// Faces in the picture, one per instance.
+    pub faces: usize,
+    /// Triangles sent to the rasterizer, before trimming.
+    pub triangles: usize,
+    /// Points that were evaluated for it.
+    pub evaluated: usize,
+    /// Seconds to choose levels of detail and to evaluate.
+    pub evaluate_s: f64,
+    /// Seconds in all.
+    pub total_s: f64,
+    /// Bytes that the device holds for the scene.
+    pub bytes: u64,
+}
+
+/// Larger pictures are drawn in tiles.
+const TILE: u32 = 2048;
+/// Pieces that the last picture did not need are kept while there are less vertices than this.
+const KEPT_BYTES: u64 = 64 << 20;
+
+impl Renderer {
+    /// Brings `scene` to the device.
+    ///
+    /// # Errors
+    /// What the device refuses.
+    pub fn new(gpu: &Gpu, scene: Scene) -> Result<Self, RenderError> {
+        let name = format!("bring {} faces to the device", scene.face_count());
+        let stage = gpu.scoped(&name, || Stage::new(gpu, &scene))?;
+        Ok(Self {
+            gpu: gpu.clone(),
+            evaluator: Evaluator::on_gpu(gpu, Backend::Bezier),
+            stage,
+            passes: Passes::new(gpu),
+            scene,
+            targets: None,
+            statistics: FrameStatistics::default(),
+        })
+    }
+
+    /// What is drawn.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Shows or hides an instance.
+    pub fn show(&mut self, instance: usize, is_shown: bool) {
+        if let Some(instance) = self.scene.instances.get_mut(instance) {
+            instance.is_shown = is_shown;
+        }
+    }
+
+    /// What the last picture took.
+    pub fn statistics(&self) -> FrameStatistics {
+        self.statistics
+    }
+
+    /// A picture of `size` pixels.
+    ///
+    /// # Errors
+    /// A size that cannot be, and what the device refuses.
+    pub fn picture(&mut self, camera: &Camera, size: [u32; 2], look: &Look) -> Result<Picture, RenderError> {
+        check(size)?;
+        let start = Instant::now();
+        let visible = self.prepare(camera, size, look)?;
+        let mut out = Picture {
+            width: size[0],
+            height: size[1],
+            rgba: vec![0; size[0] as usize * size[1] as usize * 4],
+        };
+        let samples = if look.samples > 1 { 4 } else { 1 };
+        let rounds = (look.samples / 4).clamp(1, 64);
+        for mut tile in tiles(size) {
+            let mut sums = Vec::new();
+            for round in 0..rounds {
+                tile.jitter = jitter(round, rounds);
+                let own = self.tile(camera, size, look, &visible, &tile, samples)?;
+                if rounds == 1 {
+                    out.paste(&own, tile.column, tile.row);
+                } else {
+                    accumulate(&mut sums, &own);
+                }
+            }
+            if rounds > 1 {
+                out.paste(&averaged(&sums, tile.size, rounds), tile.column, tile.row);
+            }
+        }
+        self.statistics.total_s = start.elapsed().as_secs_f64();
+        Ok(out)
+    }
+
+    /// What every pixel of a picture of `size` pixels shows.
+    ///
+    /// # Errors
+    /// A size that cannot be, and what the device refuses.
+    pub fn seen(&mut self, camera: &Camera, size: [u32; 2], look: &Look) -> Result<Seen, RenderError> {
+        check(size)?;
+        let visible = self.prepare(camera, size, look)?;
+        let count = size[0] as usize * size[1] as usize;
+        let mut out = Seen { width: size[0], height: size[1], pixels: vec![None; count] };
+        for tile in tiles(size) {
+            let (texels, faces) = self.identify(camera, size, look, &visible, &tile)?;
+            for (k, [id, u, v, _]) in texels.into_iter().enumerate() {
+                let Some(&(instance, face)) = id.checked_sub(1).and_then(|id| faces.get(id as usize)) else {
+                    continue;
+                };
+                let (x, y) = (k as u32 % tile.size[0], k as u32 / tile.size[0]);
+                let at = (tile.row + y) as usize * size[0] as usize + (tile.column + x) as usize;
+                let share = glam::DVec2::new(f64::from(f32::from_bits(u)), f64::from(f32::from_bits(v)));
+                out.pixels[at] = Some(Pick { instance: instance as usize, face: face as usize, share });
+            }
+        }
+        Ok(out)
+    }
+
+    /// Evaluates what the picture needs.
+    fn prepare(&mut self, camera: &Camera, size: [u32; 2], look: &Look) -> Result<Vec<Visible>, RenderError> {
+        let start = Instant::now();
+        let shot = Shot { scene: &self.scene, camera, look, size };
+        let visible = shot.visible();
+        let keys = || visible.iter().filter(|v| is_evaluated(face(&self.scene, &v.key))).map(|v| v.key);
+        self.stage.evaluated = 0;
+        if self.stage.vertices.bytes() > KEPT_BYTES {
+            let used: FxHashSet<PieceKey> = keys().collect();
+            self.stage.forget(|key| used.contains(key));
+        }
+        let (stage, gpu, evaluator, scene) = (&mut self.stage, &self.gpu, &self.evaluator, &self.scene);
+        let wanted: Vec<PieceKey> = keys().collect();
+        gpu.scoped("evaluate the faces in the picture", || stage.evaluate(gpu, evaluator, scene, wanted))?;
+        self.statistics = FrameStatistics {
+            faces: visible.len(),
+            evaluated: self.stage.evaluated,
+            evaluate_s: start.elapsed().as_secs_f64(),
+            bytes: self.stage.bytes(),
+            ..FrameStatistics::default()
+        };
+        Ok(visible)
+    }
+
+    /// Draws a tile and reads it back.
+    fn tile(
+        &mut self,
+        camera: &Camera,
+        size: [u32; 2],
+        look: &Look,
+        visible: &[Visible],
+        tile: &Tile,
+        samples: u32,
+    ) -> Result<Picture, RenderError> {
+        let name = format!("draw {} x {} pixels", tile.size[0], tile.size[1]);
+        let gpu = self.gpu.clone();
+        let rgba = read_back(&gpu, &name, tile.size, 4, || {
+            let shot = Shot { scene: &self.scene, camera, look, size };
+            let lists = shot.lists(&self.stage, visible, tile);
+            self.statistics.triangles += lists.indices.len() / 3;
+            let is_fit = |t: &Targets| t.size == tile.size && t.samples == samples;
+            if !self.targets.as_ref().is_some_and(is_fit) {
+                self.targets = Some(Targets::new(&gpu, tile.size, samples));
+            }
+            let bound = Bound::new(&gpu, &self.passes, &self.stage, &shot, &lists, tile);
+            let mut encoder = gpu.device().create_command_encoder(&Default::default());
+            if let Some(targets) = &self.targets {
+                draw(&gpu, &mut encoder, &mut self.passes, targets, &lists, &bound, look, samples);
+                compose(&gpu, &mut encoder, &mut self.passes, targets, &shot, tile);
+                return Ok((encoder, targets.picture.clone()));
+            }
+            Err(GpuError::Request("there is nothing to draw into".to_owned()))
+        })?;
+        Ok(Picture { width: tile.size[0], height: tile.size[1], rgba })
+    }
+
+    /// What the pixels of a tile show, and the faces that their numbers stand for.
+    #[expect(clippy::type_complexity, reason = "four numbers a pixel, two numbers a face")]
+    fn identify(
+        &mut self,
+        camera: &Camera,
+        size: [u32; 2],
+        look: &Look,
+        visible: &[Visible],
+        tile: &Tile,
+    ) -> Result<(Vec<[u32; 4]>, Vec<(u32, u32)>), RenderError> {
+        let shot = Shot { scene: &self.scene, camera, look, size };
+        let lists = shot.lists(&self.stage, visible, tile);
+        let gpu = self.gpu.clone();
+        let passes = &mut self.passes;
+        let stage = &self.stage;
+        let bytes = read_back(&gpu, "identify pixels", tile.size, 16, || {
+            let targets = IdTargets::new(&gpu, tile.size);
+            let bound = Bound::new(&gpu, passes, stage, &shot, &lists, tile);
+            let mut encoder = gpu.device().create_command_encoder(&Default::default());
+            let view = view_of(&targets.ids);
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("identify"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                depth_stencil_attachment: Some(depth_attachment(&targets.depth, true)),
+                ..Default::default()
+            });
+            bound.trims(&mut pass);
+            for (k, is_trimmed) in [(0, false), (1, true), (2, false), (3, true)] {
+                bound.faces(&gpu, &mut pass, passes, Pass::Identify { is_trimmed }, 1, &lists, k);
+            }
+            bound.strips(
+                &gpu,
+                &mut pass,
+                passes,
+                Pass::IdentifyBorder,
+                1,
+                &bound.borders,
+                lists.borders.len(),
+            );
+            drop(pass);
+            Ok((encoder, targets.ids))
+        })?;
+        let texel =
+            |b: &[u8]| [0, 4, 8, 12].map(|k| u32::from_ne_bytes([b[k], b[k + 1], b[k + 2], b[k + 3]]));
+        Ok((bytes.chunks_exact(16).map(texel).collect(), lists.faces))
+    }
+}
+
+fn face<'a>(scene: &'a Scene, key: &PieceKey) -> &'a crate::SceneFace {
+    &scene.parts[key.part as usize].faces[key.face as usize]
+}
+
+fn check([width, height]: [u32; 2]) -> Result<(), RenderError> {
+    let is_possible = |n: u32| (1..=MOST_PIXELS).contains(&n);
+    if is_possible(width) && is_possible(height) { Ok(()) } else { Err(RenderError::Size(width, height)) }
+}
+
+fn tiles([width, height]: [u32; 2]) -> Vec<Tile> {
+    let rows = (0..height).step_by(TILE as usize);
+    let all = rows.flat_map(|row| (0..width).step_by(TILE as usize).map(move |column| (column, row)));
+    all.map(|(column, row)| Tile {
+        column,
+        row,
+        size: [TILE.min(width - column), TILE.min(height - row)],
+        jitter: [0.0; 2],
+    })
+    .collect()
+}
+
+/// Places within a quarter of a pixel's sides, which four samples each make into those of the whole pixel.
+fn jitter(round: u32, rounds: u32) -> [f64; 2] {
+    if rounds == 1 {
+        return [0.0; 2];
+    }
+    // Halton's sequence to the bases 2 and 3.
+    let radical = |base: u32| {
+        let (mut k, mut share, mut sum) = (round + 1, 1.0, 0.0);
+        while k > 0 {
+            share /= f64::from(base);
+            sum += share * f64::from(k % base);
+            k /= base;
+        }
+        sum
+    };
+    [radical(2) - 0.5, radical(3) - 0.5].map(|x| 0.5 * x)
+}
+
+fn decode(c: u8) -> f32 {
+    let c = f32::from(c) / 255.0;
+    if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+}
+
+/// Adds a picture to sums of light, premultiplied.
+fn accumulate(sums: &mut Vec<[f32; 4]>, own: &Picture) {
+    sums.resize(own.rgba.len() / 4, [0.0; 4]);
+    for (sum, p) in sums.iter_mut().zip(own.rgba.chunks_exact(4)) {
+        let alpha = f32::from(p[3]) / 255.0;
+        (0..3).for_each(|k| sum[k] += decode(p[k]) * alpha);
+        sum[3] += alpha;
+    }
+}
+
+fn averaged(sums: &[[f32; 4]], [width, height]: [u32; 2], rounds: u32) -> Picture {
+    let encode = |c: f32| {
+        let c = c.clamp(0.0, 1.0);
+        let c = if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
+        (c * 255.0 + 0.5) as u8
+    };
+    let pixel = |sum: &[f32; 4]| {
+        let [r, g, b] = [sum[0], sum[1], sum[2]].map(|c| encode(c / sum[3].max(1e-6)));
+        [r, g, b, (sum[3] / rounds as f32 * 255.0 + 0.5) as u8]
+    };
+    Picture { width, height, rgba: sums.iter().flat_map(pixel).collect() }
+}
+
+/// The bind groups and buffers of a tile.
+struct Bound {
+    trims: wgpu::BindGroup,
+    faces: wgpu::BindGroup,
+    borders: wgpu::BindGroup,
+    edges: wgpu::BindGroup,
+    lines: wgpu::BindGroup,
+    indices: wgpu::Buffer,
+}
+
+impl Bound {
+    fn new(gpu: &Gpu, passes: &Passes, stage: &Stage, shot: &Shot<'_>, lists: &Lists, tile: &Tile) -> Self {
+        let device = gpu.device();
+        let upload = |label: &str, bytes: &[u8], usage| {
+            // Nothing cannot be bound.
+            let mut bytes = bytes.to_vec();
+            bytes.resize(bytes.len().max(96), 0);
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(label),
+                contents: &bytes,
+                usage,
+            })
+        };
+        let storage = wgpu::BufferUsages::STORAGE;
+        let view = upload("view", bytemuck::bytes_of(&shot.view(tile)), wgpu::BufferUsages::UNIFORM);
+        let items = upload("items", bytemuck::cast_slice(&lists.items), storage);
+        let group = |layout: &wgpu::BindGroupLayout, buffers: &[&wgpu::Buffer]| {
+            let entries: Vec<wgpu::BindGroupEntry<'_>> = (0u32..)
+                .zip(buffers)
+                .map(|(binding, b)| wgpu::BindGroupEntry { binding, resource: b.as_entire_binding() })
+                .collect();
+            device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+        };
+        let frame = |blocks: &[[u32; 2]], vertices: &wgpu::Buffer| {
+            let blocks = upload("blocks", bytemuck::cast_slice(blocks), storage);
+            group(&passes.frame, &[&view, &items, &blocks, vertices])
+        };
+        let segments = stage.segments.buffer();
+        Self {
+            trims: group(&passes.trims, &stage.trims.buffers()),
+            faces: frame(&lists.blocks, stage.vertices.buffer()),
+            borders: frame(&lists.borders, segments),
+            edges: frame(&lists.edges, segments),
+            lines: frame(&lists.lines, segments),
+            indices: upload("indices", bytemuck::cast_slice(&lists.indices), wgpu::BufferUsages::INDEX),
+        }
+    }
+
+    fn trims(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.set_bind_group(0, &self.trims, &[]);
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "what a draw call depends on")]
+    fn faces(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::RenderPass<'_>,
+        passes: &mut Passes,
+        which: Pass,
+        samples: u32,
+        lists: &Lists,
+        range: usize,
+    ) {
+        if !lists.ranges[range].is_empty() {
+            pass.set_pipeline(&passes.get(gpu, which, samples));
+            pass.set_bind_group(1, &self.faces, &[]);
+            pass.draw_indexed(lists.ranges[range].clone(), 0, 0..1);
+        }
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "what a draw call depends on")]
+    fn strips(
+        &self,
+        gpu: &Gpu,
+        pass: &mut wgpu::RenderPass<'_>,
+        passes: &mut Passes,
+        which: Pass,
+        samples: u32,
+        group: &wgpu::BindGroup,
+        blocks: usize,
+    ) {
+        if blocks > 0 {
+            pass.set_pipeline(&passes.get(gpu, which, samples));
+            pass.set_bind_group(1, group, &[]);
+            pass.draw(0..(blocks * SEGMENTS * 6) as u32, 0..1);
+        }
+    }
+}
+
+#[expect(clippy::too_many_arguments, reason = "what the passes of a picture depend on")]
+fn draw(
+    gpu: &Gpu,
+    encoder: &mut wgpu::CommandEncoder,
+    passes: &mut Passes,
+    targets: &Targets,
+    lists: &Lists,
+    bound: &Bound,
+    look: &Look,
+    samples: u32,
+) {
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("solid"),
+        color_attachments: &[targets.color.attachment([0.0; 4])],
+        depth_stencil_attachment: Some(depth_attachment(&targets.depth, true)),
+        ..Default::default()
+    });
+    bound.trims(&mut pass);
+    for (k, is_trimmed) in [(0, false), (1, true)] {
+        bound.faces(gpu, &mut pass, passes, Pass::Surface { is_trimmed }, samples, lists, k);
+    }
+    bound.strips(gpu, &mut pass, passes, Pass::Border, samples, &bound.borders, lists.borders.len());
+    let edges = [Pass::HiddenEdge, Pass::Edge];
+    let drawn = match look.edges {
+        EdgeStyle::None => &edges[..0],
+        EdgeStyle::Visible => &edges[1..],
+        EdgeStyle::Hidden => &edges[..],
+    };
+    for &which in drawn {
+        bound.strips(gpu, &mut pass, passes, which, samples, &bound.edges, lists.edges.len());
+    }
+    bound.strips(gpu, &mut pass, passes, Pass::Line, samples, &bound.lines, lists.lines.len());
+    drop(pass);
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("transparent"),
+        color_attachments: &[targets.sums.attachment([0.0; 4]), targets.through.attachment([1.0; 4])],
+        depth_stencil_attachment: Some(depth_attachment(&targets.depth, false)),
+        ..Default::default()
+    });
+    bound.trims(&mut pass);
+    for (k, is_trimmed) in [(2, false), (3, true)] {
+        bound.faces(gpu, &mut pass, passes, Pass::Veil { is_trimmed }, samples, lists, k);
+    }
+}
+
+/// As in `shaders/compose.wgsl`.
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+struct Ground {
+    top: [f32; 4],
+    bottom: [f32; 4],
+    above: f32,
+    share: f32,
+    size: [f32; 2],
+}
+
+fn compose(
+    gpu: &Gpu,
+    encoder: &mut wgpu::CommandEncoder,
+    passes: &mut Passes,
+    targets: &Targets,
+    shot: &Shot<'_>,
+    tile: &Tile,
+) {
+    let (top, bottom) = match shot.look.background {
+        Background::Gradient(top, bottom) => (top, bottom),
+        Background::Plain(color) => (color, color),
+    };
+    let whole = shot.size[1] as f32;
+    let ground = Ground {
+        top: linear(top),
+        bottom: linear(bottom),
+        above: tile.row as f32 / whole,
+        share: tile.size[1] as f32 / whole,
+        size: tile.size.map(|n| n as f32),
+    };
+    let buffer = gpu.device().create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some("ground"),
+        contents: bytemuck::bytes_of(&ground),
+        usage: wgpu::BufferUsages::UNIFORM,
+    });
+    let pipeline = passes.compose(gpu);
+    let group = gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("compose"),
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
+            read(1, &targets.color),
+            read(2, &targets.sums),
+            read(3, &targets.through),
+        ],
+    });
+    let view = view_of(&targets.picture);
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("compose"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                store: wgpu::StoreOp::Store,
+            },
+        })],
+        ..Default::default()
+    });
+    pass.set_pipeline(&pipeline);
+    pass.set_bind_group(0, &group, &[]);
+    pass.draw(0..3, 0..1);
+}
+
+fn read(binding: u32, target: &Target) -> wgpu::BindGroupEntry<'_> {
+    wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(target.read()) }
+}
+
+/// Does the work that `encode` adds, and reads its texture of `bytes` per texel, row by row.
+fn read_back(
+    gpu: &Gpu,
+    name: &str,
+    [width, height]: [u32; 2],
+    bytes: u32,
+    encode: impl FnOnce() -> Result<(wgpu::CommandEncoder, wgpu::Texture), GpuError>,
+) -> Result<Vec<u8>, GpuError> {
+    let row = width * bytes;
+    let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let all = u64::from(padded) * u64::from(height);
+    let copy = gpu.scoped(name, || {
+        let (mut encoder, texture) = encode()?;
+        let copy = gpu.reserve_for_copies("read back", all);
+        encoder.copy_texture_to_buffer(
+            texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &copy,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(padded),
+                    rows_per_image: None,
+                },
+            },
+            texture.size(),
+        );
+        gpu.queue().submit([encoder.finish()]);
+        Ok(copy)
+    })?;
+    let found: Vec<u8> = gpu.download(name, &copy, all)?;
+    Ok(found.chunks_exact(padded as usize).flat_map(|line| &line[..row as usize]).copied().collect())
+}

@@ -1,0 +1,110 @@
+// Faces: vertices that the evaluators left on the device, trimmed exactly in each fragment.
+
+// 1 where trim curves pass through what is drawn.
+override IS_TRIMMED: u32 = 1u;
+override SAMPLES: u32 = 4u;
+
+struct Corner {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) place: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    // Shares of the face's domain.
+    @location(2) uv: vec2<f32>,
+    @location(3) @interpolate(flat) item: u32,
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Corner {
+    let block = blocks[index / 64u];
+    let at = block.y + index % 64u;
+    let a = vertices[2u * at];
+    let b = vertices[2u * at + 1u];
+    var out: Corner;
+    out.place = to_eye(block.x, vec4<f32>(a.xyz, 1.0));
+    out.normal = to_eye(block.x, vec4<f32>(b.xyz, 0.0));
+    out.uv = vec2<f32>(a.w, b.w);
+    out.item = block.x;
+    out.clip = view.clip * vec4<f32>(out.place, 1.0);
+    return out;
+}
+
+// Which samples of the pixel are inside the face. `uv` may change by `across` and `down` from pixel to pixel.
+fn coverage(trim: u32, uv: vec2<f32>, across: vec2<f32>, down: vec2<f32>) -> u32 {
+    if IS_TRIMMED == 0u {
+        return 0xffffffffu;
+    }
+    if SAMPLES == 1u {
+        return select(0u, 1u, is_inside(trim, uv));
+    }
+    // The places that WebGPU gives to four samples.
+    var places = array<vec2<f32>, 4>(
+        vec2<f32>(-0.125, -0.375),
+        vec2<f32>(0.375, -0.125),
+        vec2<f32>(-0.375, 0.125),
+        vec2<f32>(0.125, 0.375),
+    );
+    var mask = 0u;
+    for (var k = 0u; k < 4u; k++) {
+        if is_inside(trim, uv + across * places[k].x + down * places[k].y) {
+            mask |= 1u << k;
+        }
+    }
+    return mask;
+}
+
+struct Painted {
+    @location(0) color: vec4<f32>,
+    @builtin(sample_mask) mask: u32,
+}
+
+@fragment
+fn paint(in: Corner) -> Painted {
+    let across = dpdx(in.uv);
+    let down = dpdy(in.uv);
+    let item = items[in.item];
+    var out: Painted;
+    out.mask = coverage(item.trim, in.uv, across, down);
+    if out.mask == 0u || is_cut_away(in.place) {
+        discard;
+    }
+    out.color = vec4<f32>(shade(item.color.rgb, in.normal, sight(in.place)), 1.0);
+    return out;
+}
+
+struct Veil {
+    @location(0) sum: vec4<f32>,
+    @location(1) through: f32,
+    @builtin(sample_mask) mask: u32,
+}
+
+// Transparent faces in any order: weighted blending (McGuire & Bavoil 2013).
+@fragment
+fn veil(in: Corner) -> Veil {
+    let across = dpdx(in.uv);
+    let down = dpdy(in.uv);
+    let item = items[in.item];
+    var out: Veil;
+    out.mask = coverage(item.trim, in.uv, across, down);
+    if out.mask == 0u || is_cut_away(in.place) {
+        discard;
+    }
+    let alpha = item.color.a;
+    // Depth is reversed: what is near weighs more.
+    let weight = alpha * clamp(3e3 * pow(in.clip.z, 3.0), 1e-2, 3e3);
+    out.sum = vec4<f32>(shade(item.color.rgb, in.normal, sight(in.place)), 1.0) * weight;
+    out.through = alpha;
+    return out;
+}
+
+// The item, (u, v) and the depth of every pixel.
+@fragment
+fn identify(in: Corner) -> @location(0) vec4<u32> {
+    let item = items[in.item];
+    if IS_TRIMMED == 1u && !is_inside(item.trim, in.uv) {
+        discard;
+    }
+    if is_cut_away(in.place) {
+        discard;
+    }
+    return vec4<u32>(item.id, bitcast<u32>(in.uv.x), bitcast<u32>(in.uv.y), bitcast<u32>(in.clip.z));
+}
