@@ -7,6 +7,7 @@ use clap_complete::Shell;
 use trimloop_compare::{Gates, Reach};
 use trimloop_gltf::{GltfOptions, UpAxis};
 use trimloop_mesh::{LinearDeflection, MeshOptions};
+use trimloop_render::{Background, Direction, Lod, Section};
 
 use crate::quantity;
 
@@ -32,6 +33,9 @@ pub enum Command {
     /// Show what is in STEP and IGES files: assembly tree, units, bodies, surfaces, colours
     #[command(after_help = INSPECT_EXAMPLES)]
     Inspect(InspectArguments),
+    /// Draw STEP and IGES files: exact surfaces, evaluated on the GPU for the picture
+    #[command(after_help = RENDER_EXAMPLES)]
+    Render(RenderArguments),
     /// Compare two shapes, CAD files or meshes: distances both ways, area, volume, topology, and a verdict
     #[command(after_help = COMPARE_EXAMPLES)]
     Compare(CompareArguments),
@@ -62,6 +66,25 @@ Examples:
 Exit codes:
   0  all well
   1  written, but a face was lost or part of the file is damaged (with --strict also: a face only approximated)
+  2  nothing usable: bad usage, unreadable file, unwritable output; nothing is left behind
+  130  stopped (Ctrl-C)
+With several inputs, the worst of them.";
+
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  trimloop render bracket.step                                writes bracket.png beside it
+  trimloop render gearbox.step -o front.png --view front --ortho --size 2400x1600
+  trimloop render gearbox.step -o cut.png --section x=10mm --hide Cover
+  trimloop render gearbox.step -o turn/gearbox.png --turntable 36 --transparent
+  trimloop render parts/*.step -o sheet.png                   one picture of all, a contact sheet
+  trimloop render parts/*.step -o thumbs/ --size 128x128 --edges none
+  trimloop render bracket.step --pick 640,480                 what is there: face, exact point, normal, radius
+
+Without a GPU, software Vulkan is used (Debian: mesa-vulkan-drivers), and without that a picture of triangles is drawn.
+
+Exit codes:
+  0  all well
+  1  drawn, but a face was lost or part of the file is damaged
   2  nothing usable: bad usage, unreadable file, unwritable output; nothing is left behind
   130  stopped (Ctrl-C)
 With several inputs, the worst of them.";
@@ -234,6 +257,132 @@ impl ConvertArguments {
             meshopt: self.meshopt,
         }
     }
+}
+
+/// `trimloop render`.
+#[derive(Args, Debug)]
+pub struct RenderArguments {
+    /// STEP and IGES files
+    #[arg(value_name = "INPUT", required = true)]
+    pub inputs: Vec<PathBuf>,
+
+    /// Picture (.png) or folder; a picture of several inputs is a contact sheet [default: beside each input]
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+
+    /// Number of threads, 0 for one per core
+    #[arg(short, long, value_name = "N", default_value_t = 0)]
+    pub jobs: usize,
+
+    /// Print errors only
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub quiet: bool,
+
+    /// Print what the file has to say, and what the picture took
+    #[arg(short, long)]
+    pub verbose: bool,
+
+    /// Pixels; of a contact sheet those of each of its pictures [default: 1280x960, 320x240 in a contact sheet]
+    #[arg(long, value_name = "WxH", help_heading = "Picture", value_parser = quantity::pixels)]
+    pub size: Option<[u32; 2]>,
+
+    /// Colour behind the model: a name, #rrggbb, or two of them with a comma, from top to bottom
+    #[arg(long, value_name = "COLOR", help_heading = "Picture", value_parser = quantity::background)]
+    pub background: Option<Background>,
+
+    /// Nothing behind the model
+    #[arg(long, conflicts_with = "background", help_heading = "Picture")]
+    pub transparent: bool,
+
+    /// Samples of a pixel: 1, 4, 8, 16, 32, 64
+    #[arg(long, value_name = "N", default_value = "8", help_heading = "Picture", value_parser = quantity::samples)]
+    pub samples: u32,
+
+    /// The faces' edges: those that are seen, paler ones behind faces too, or none
+    #[arg(
+        long,
+        value_enum,
+        value_name = "KIND",
+        default_value_t = Edges::Visible,
+        num_args = 0..=1,
+        default_missing_value = "visible",
+        help_heading = "Picture"
+    )]
+    pub edges: Edges,
+
+    /// From where: iso, front, back, left, right, top, bottom, or azimuth and elevation in degrees (30,20)
+    #[arg(
+        long,
+        value_name = "VIEW",
+        default_value = "iso",
+        allow_hyphen_values = true,
+        help_heading = "View",
+        value_parser = quantity::view
+    )]
+    pub view: Direction,
+
+    /// Axis of the model that points up
+    #[arg(long, value_enum, default_value_t = Up::Z, help_heading = "View")]
+    pub up: Up,
+
+    /// Parallel instead of perspective
+    #[arg(long, help_heading = "View")]
+    pub ortho: bool,
+
+    /// Fill the picture with what has this name instead of with all that is shown
+    #[arg(long, value_name = "NAME", help_heading = "View")]
+    pub fit: Vec<String>,
+
+    /// Leave out what has this name (* stands for anything), and what is below it; may be given several times
+    #[arg(long, value_name = "NAME", help_heading = "View")]
+    pub hide: Vec<String>,
+
+    /// Draw only what has this name, and what is below it; may be given several times
+    #[arg(long, value_name = "NAME", help_heading = "View")]
+    pub only: Vec<String>,
+
+    /// Cut away what lies beyond a plane: x=10mm, or -x=10mm for the other side; what is cut is capped
+    #[arg(
+        long,
+        value_name = "PLANE",
+        allow_hyphen_values = true,
+        help_heading = "View",
+        value_parser = quantity::section
+    )]
+    pub section: Option<Section>,
+
+    /// As many pictures from all around: OUT_001.png, OUT_002.png, ...
+    #[arg(long, value_name = "N", help_heading = "View", value_parser = clap::value_parser!(u32).range(1..=3600))]
+    pub turntable: Option<u32>,
+
+    /// Pixels that the picture may be off the exact model
+    #[arg(long, value_name = "PX", default_value = "0.5", help_heading = "Exactness", value_parser = quantity::screen_error)]
+    pub screen_error: f64,
+
+    /// How levels of detail are chosen
+    #[arg(long, value_name = "NAME", default_value = "adaptive", help_heading = "Exactness", value_parser = quantity::lod)]
+    pub lod: Lod,
+
+    /// Instead of drawing, tell what the pixel in a column of a row shows, as JSON
+    #[arg(
+        long,
+        value_name = "X,Y",
+        conflicts_with_all = ["turntable", "output"],
+        help_heading = "Picking",
+        value_parser = quantity::place
+    )]
+    pub pick: Option<[u32; 2]>,
+}
+
+/// Which edges are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Edges {
+    /// None.
+    None,
+    /// Those that are seen.
+    Visible,
+    /// Those behind faces too.
+    Hidden,
 }
 
 /// `trimloop compare`.
@@ -424,6 +573,7 @@ pub struct InspectArguments {
 mod tests {
     use clap::{CommandFactory, Parser};
     use trimloop_mesh::{LinearDeflection, MeshOptions};
+    use trimloop_render::{Background, Direction, Lod, Section};
 
     use super::{Arguments, Command, ConvertArguments};
 

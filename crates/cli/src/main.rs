@@ -17,6 +17,7 @@ mod progress;
 mod quantity;
 mod regress;
 mod regress_text;
+mod render;
 mod report;
 mod report_sink;
 mod side;
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Render(arguments) => render::run(&arguments),
         Command::Regress(arguments) => regress::run(&arguments),
         Command::Completions { shell } => manual::completions(shell),
         Command::Man { folder } => manual::pages(folder.as_deref()),

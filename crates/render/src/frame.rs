@@ -227,7 +227,7 @@ impl Shot<'_> {
             let offset = section.normal.dot(camera.eye) - section.offset_mm;
             normal.extend(offset).as_vec4()
         });
-        let up = (camera.rotation() * DVec3::Z).as_vec3();
+        let up = (camera.rotation() * self.look.up.axis()).as_vec3();
         View {
             clip: Mat4::from_cols_array_2d(&clip.map(|column| column.map(|x| x as f32))),
             size: Vec2::new(width as f32, height as f32),

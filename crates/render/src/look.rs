@@ -3,6 +3,8 @@
 use glam::DVec3;
 use trimloop_brep::Rgba;
 
+use crate::{Lod, Up};
+
 /// What a picture looks like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
@@ -18,6 +20,10 @@ pub struct Look {
     pub color: Rgba,
     /// What is cut away.
     pub section: Option<Section>,
+    /// Where the light comes from.
+    pub up: Up,
+    /// How levels of detail are chosen.
+    pub lod: Lod,
 }
 
 /// What is behind the model.
@@ -59,6 +65,8 @@ impl Default for Look {
             screen_error_px: 0.5,
             color: Rgba::opaque(0.73, 0.75, 0.78),
             section: None,
+            up: Up::Z,
+            lod: Lod::Adaptive,
         }
     }
 }
@@ -67,4 +75,11 @@ impl Default for Look {
 pub(crate) fn linear(color: Rgba) -> [f32; 4] {
     let decode = |c: f32| if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };
     [decode(color.r), decode(color.g), decode(color.b), color.a]
+}
+
+/// Light as a byte of an sRGB colour.
+pub(crate) fn encode(c: f32) -> u8 {
+    let c = c.clamp(0.0, 1.0);
+    let c = if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
+    (c * 255.0 + 0.5) as u8
 }

@@ -6,16 +6,16 @@ use rustc_hash::FxHashSet;
 use trimloop_gpu::{Backend, Evaluator, Gpu, GpuError};
 use wgpu::util::DeviceExt;
 
-use crate::RenderError;
 use crate::camera::Camera;
 use crate::error::MOST_PIXELS;
 use crate::frame::{Lists, Shot, Tile, Visible, is_evaluated};
-use crate::look::{Background, EdgeStyle, Look, linear};
+use crate::look::{Background, EdgeStyle, Look, encode, linear};
 use crate::passes::{Pass, Passes};
 use crate::picture::{Pick, Picture, Seen};
 use crate::scene::Scene;
 use crate::stage::{PieceKey, SEGMENTS, Stage};
 use crate::targets::{IdTargets, Target, Targets, depth_attachment, view_of};
+use crate::{Place, RenderError};
 
 /// Draws pictures of a scene.
 #[derive(Debug)]
@@ -44,6 +44,19 @@ pub struct FrameStatistics {
     pub total_s: f64,
     /// Bytes that the device holds for the scene.
     pub bytes: u64,
+}
+
+impl std::fmt::Display for FrameStatistics {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { faces, triangles, evaluated, evaluate_s, total_s, bytes } = self;
+        let (evaluate_ms, total_ms) = (evaluate_s * 1e3, total_s * 1e3);
+        write!(
+            f,
+            "{faces} faces, {triangles} triangles, {evaluated} points evaluated in {evaluate_ms:.1} ms, \
+             {total_ms:.1} ms in all, {} KiB on the device",
+            bytes / 1024
+        )
+    }
 }
 
 /// Larger pictures are drawn in tiles.
@@ -132,17 +145,35 @@ impl Renderer {
         let mut out = Seen { width: size[0], height: size[1], pixels: vec![None; count] };
         for tile in tiles(size) {
             let (texels, faces) = self.identify(camera, size, look, &visible, &tile)?;
-            for (k, [id, u, v, _]) in texels.into_iter().enumerate() {
-                let Some(&(instance, face)) = id.checked_sub(1).and_then(|id| faces.get(id as usize)) else {
-                    continue;
-                };
+            for (k, texel) in texels.into_iter().enumerate() {
                 let (x, y) = (k as u32 % tile.size[0], k as u32 / tile.size[0]);
                 let at = (tile.row + y) as usize * size[0] as usize + (tile.column + x) as usize;
-                let share = glam::DVec2::new(f64::from(f32::from_bits(u)), f64::from(f32::from_bits(v)));
-                out.pixels[at] = Some(Pick { instance: instance as usize, face: face as usize, share });
+                out.pixels[at] = pick_of(texel, &faces);
             }
         }
         Ok(out)
+    }
+
+    /// What lies at a pixel; `None` also outside of the picture.
+    ///
+    /// # Errors
+    /// A size that cannot be, and what the device refuses.
+    pub fn pick(
+        &mut self,
+        camera: &Camera,
+        size: [u32; 2],
+        look: &Look,
+        [column, row]: [u32; 2],
+    ) -> Result<Option<Place>, RenderError> {
+        check(size)?;
+        if column >= size[0] || row >= size[1] {
+            return Ok(None);
+        }
+        let visible = self.prepare(camera, size, look)?;
+        let tile = Tile { column, row, size: [1, 1], jitter: [0.0; 2] };
+        let (texels, faces) = self.identify(camera, size, look, &visible, &tile)?;
+        let at = glam::DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
+        Ok(pick_of(texels[0], &faces).and_then(|pick| Place::new(&self.scene, &pick, camera.ray(at, size))))
     }
 
     /// Evaluates what the picture needs.
@@ -257,11 +288,18 @@ impl Renderer {
     }
 }
 
+/// What a texel of the pass that identifies means.
+fn pick_of([id, u, v, _]: [u32; 4], faces: &[(u32, u32)]) -> Option<Pick> {
+    let &(instance, face) = faces.get(id.checked_sub(1)? as usize)?;
+    let share = glam::DVec2::new(f64::from(f32::from_bits(u)), f64::from(f32::from_bits(v)));
+    Some(Pick { instance: instance as usize, face: face as usize, share })
+}
+
 fn face<'a>(scene: &'a Scene, key: &PieceKey) -> &'a crate::SceneFace {
     &scene.parts[key.part as usize].faces[key.face as usize]
 }
 
-fn check([width, height]: [u32; 2]) -> Result<(), RenderError> {
+pub(crate) fn check([width, height]: [u32; 2]) -> Result<(), RenderError> {
     let is_possible = |n: u32| (1..=MOST_PIXELS).contains(&n);
     if is_possible(width) && is_possible(height) { Ok(()) } else { Err(RenderError::Size(width, height)) }
 }
@@ -312,11 +350,6 @@ fn accumulate(sums: &mut Vec<[f32; 4]>, own: &Picture) {
 }
 
 fn averaged(sums: &[[f32; 4]], [width, height]: [u32; 2], rounds: u32) -> Picture {
-    let encode = |c: f32| {
-        let c = c.clamp(0.0, 1.0);
-        let c = if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
-        (c * 255.0 + 0.5) as u8
-    };
     let pixel = |sum: &[f32; 4]| {
         let [r, g, b] = [sum[0], sum[1], sum[2]].map(|c| encode(c / sum[3].max(1e-6)));
         [r, g, b, (sum[3] / rounds as f32 * 255.0 + 0.5) as u8]

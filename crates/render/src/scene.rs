@@ -136,8 +136,14 @@ impl Scene {
 
     /// Points of everything that is shown, in the model's coordinates: what a picture must hold.
     pub fn outline(&self) -> Vec<DVec3> {
-        let shown = self.instances.iter().filter(|instance| instance.is_shown);
+        self.outline_of(|_| true)
+    }
+
+    /// The same for some of the instances, by their indices.
+    pub fn outline_of(&self, is_wanted: impl Fn(usize) -> bool) -> Vec<DVec3> {
+        let shown = self.instances.iter().enumerate().filter(|(k, i)| i.is_shown && is_wanted(*k));
         shown
+            .map(|(_, i)| i)
             .flat_map(|i| self.parts[i.part].outline.iter().map(|p| i.transform.transform_point3(*p)))
             .collect()
     }
