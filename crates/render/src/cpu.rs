@@ -70,8 +70,21 @@ impl CpuRenderer {
     /// # Errors
     /// Where `monitor` stops it.
     pub fn new(model: &Model, scene: Scene, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        Self::with_deflection(model, scene, DEFLECTION, monitor)
+    }
+
+    /// The same with triangles that are off by at most a share of their part's size.
+    ///
+    /// # Errors
+    /// Where `monitor` stops it.
+    pub fn with_deflection(
+        model: &Model,
+        scene: Scene,
+        deflection: f64,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let options = MeshOptions {
-            linear_deflection: LinearDeflection::Relative(DEFLECTION),
+            linear_deflection: LinearDeflection::Relative(deflection),
             angular_deflection_rad: 12f64.to_radians(),
             ..MeshOptions::default()
         };

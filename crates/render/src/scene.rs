@@ -148,6 +148,16 @@ impl Scene {
             .collect()
     }
 
+    /// The exact point at a pick's parameters, in the model's coordinates; `None` where the face is no surface.
+    pub fn point(&self, pick: &crate::Pick) -> Option<DVec3> {
+        let instance = self.instances.get(pick.instance)?;
+        let FaceKind::Surface(surface) = &self.parts[instance.part].faces.get(pick.face)?.kind else {
+            return None;
+        };
+        let point = surface.shape.derivatives(surface.parameters(pick.share)).point;
+        Some(instance.transform.transform_point3(point))
+    }
+
     /// The box of [`Scene::outline`].
     pub fn bounds(&self) -> Aabb {
         Aabb::from_points(self.outline())
