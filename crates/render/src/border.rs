@@ -1,56 +1,97 @@
-//! A face's boundary and a part's edges as straight segments between the samples that all faces share.
+//! A face's boundary and a part's edges as straight segments, as fine as a view needs.
+
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use trimloop_brep::{FaceId, Part};
-use trimloop_gpu::FaceShape;
-use trimloop_trim::EdgeSamples;
+use trimloop_geom::{Curve, Interval};
+use trimloop_trim::curves::{Cubic, point};
+use trimloop_trim::{Tolerance, sample_curve};
 
-/// A chord of an edge.
+use crate::surface_face::SurfaceFace;
+
+/// A chord of a face's boundary or of an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Segment {
     pub a: DVec3,
     pub b: DVec3,
-    /// Shares of the face's domain.
+    /// Parameters on the face.
     pub uv: [DVec2; 2],
 }
 
-/// The sides of the face's polygons; sides that no edge has (cuts, poles) too.
-pub(crate) fn loop_segments(face: &FaceShape, samples: &EdgeSamples) -> Vec<Segment> {
-    let [u, v] = face.shape.domain();
-    let (low, extent) = (DVec2::new(u.start, v.start), DVec2::new(u.length(), v.length()));
-    let domain = &face.domain;
-    let mut out = Vec::new();
-    for l in &domain.loops {
-        for (k, vertex) in l.vertices.iter().enumerate() {
-            let next = &l.vertices[(k + 1) % l.vertices.len()];
-            let (a, b) = (domain.point(vertex, samples), domain.point(next, samples));
-            if a != b {
-                out.push(Segment { a, b, uv: [vertex.uv, next.uv].map(|uv| (uv - low) / extent) });
-            }
-        }
-    }
-    out
+/// A piece of a curve that is drawn.
+#[derive(Clone, Debug)]
+pub(crate) struct EdgeCurve {
+    curve: Arc<Curve>,
+    range: Interval,
 }
 
-/// The chords of the edges that `face` owns.
-pub(crate) fn edge_segments(
-    part: &Part,
-    face: FaceId,
-    samples: &EdgeSamples,
-    owners: &[Option<FaceId>],
-) -> Vec<Segment> {
+/// Cubics are halved this often at most.
+const DEEPEST: u32 = 12;
+const WIDEST_TURN_RAD: f64 = 0.8;
+
+impl EdgeCurve {
+    /// Points on it, whose chords are within `off_mm`.
+    pub fn sample(&self, off_mm: f64) -> Vec<DVec3> {
+        let tolerance = Tolerance { linear_mm: off_mm, angular_rad: WIDEST_TURN_RAD };
+        let mut points = sample_curve(&self.curve, self.range, tolerance);
+        points.retain(|p| p.is_finite());
+        points
+    }
+}
+
+/// The edges that `face` owns.
+pub(crate) fn edges_of(part: &Part, face: FaceId, owners: &[Option<FaceId>]) -> Vec<EdgeCurve> {
     let mut edges: Vec<u32> =
         part.faces[face as usize].loops.iter().flat_map(|l| &l.coedges).map(|c| c.edge).collect();
     edges.retain(|&edge| owners.get(edge as usize).is_some_and(|owner| *owner == Some(face)));
     edges.sort_unstable();
     edges.dedup();
-    let chords = |edge: u32| {
-        let points = samples.edges.get(edge as usize).map_or(&[][..], |e| &e.points);
-        points.windows(2).map(|pair| Segment {
-            a: samples.points[pair[0] as usize],
-            b: samples.points[pair[1] as usize],
-            uv: [DVec2::ZERO; 2],
-        })
+    let curve = |edge: u32| {
+        let edge = &part.edges[edge as usize];
+        let is_usable = edge.range.is_finite() && edge.range.length() > 0.0;
+        is_usable.then(|| EdgeCurve { curve: edge.curve.clone(), range: edge.range })
     };
-    edges.into_iter().flat_map(chords).filter(|s| s.a != s.b).collect()
+    edges.into_iter().filter_map(curve).collect()
+}
+
+/// The boundary of a face: chords within `off_mm`, and so short that halfway along them lies what has half the
+/// parameters.
+pub(crate) fn border_of(face: &SurfaceFace, off_mm: f64) -> Vec<Segment> {
+    let mut out = Vec::new();
+    let at = |uv: DVec2| face.shape.derivatives(uv).point;
+    for cubic in face.chains.iter().flatten() {
+        let ends = [(cubic[0], at(cubic[0])), (cubic[3], at(cubic[3]))];
+        divide(face, cubic, [0.0, 1.0], ends, off_mm, DEEPEST, &mut out);
+    }
+    out.retain(|s| s.a != s.b && s.a.is_finite() && s.b.is_finite());
+    out
+}
+
+fn divide(
+    face: &SurfaceFace,
+    cubic: &Cubic,
+    [from, to]: [f64; 2],
+    [a, b]: [(DVec2, DVec3); 2],
+    off_mm: f64,
+    depth: u32,
+    out: &mut Vec<Segment>,
+) {
+    let middle = 0.5 * (from + to);
+    let uv = point(cubic, middle);
+    let on_curve = face.shape.derivatives(uv).point;
+    let is_near = |share: f64, p: DVec3| p.distance(a.1.lerp(b.1, share)) <= off_mm;
+    let fits = || {
+        is_near(0.5, on_curve)
+            && [0.25, 0.5, 0.75]
+                .into_iter()
+                .all(|s| is_near(s, face.shape.derivatives(a.0.lerp(b.0, s)).point))
+    };
+    if depth == 0 || fits() {
+        out.push(Segment { a: a.1, b: b.1, uv: [a.0, b.0] });
+        return;
+    }
+    let c = (uv, on_curve);
+    divide(face, cubic, [from, middle], [a, c], off_mm, depth - 1, out);
+    divide(face, cubic, [middle, to], [c, b], off_mm, depth - 1, out);
 }

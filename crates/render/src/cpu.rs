@@ -135,24 +135,40 @@ impl CpuRenderer {
     /// # Errors
     /// A size that cannot be.
     pub fn seen(&self, camera: &Camera, size: [u32; 2], look: &Look) -> Result<Seen, RenderError> {
+        let samples = self.samples(camera, size, look)?;
+        let pick = |(instance, face, share)| Pick { instance: instance as usize, face: face as usize, share };
+        let pixels = samples.into_iter().map(|s| s.pick.map(pick)).collect();
+        Ok(Seen { width: size[0], height: size[1], pixels })
+    }
+
+    /// How far from the eye's plane what every pixel shows is, millimetres; infinite for the background.
+    ///
+    /// # Errors
+    /// A size that cannot be.
+    pub fn depths(&self, camera: &Camera, size: [u32; 2], look: &Look) -> Result<Vec<f64>, RenderError> {
+        let depth = |s: Sample| match s.pick {
+            None => f64::INFINITY,
+            Some(_) if camera.is_parallel() => -s.near,
+            Some(_) => 1.0 / s.near,
+        };
+        Ok(self.samples(camera, size, look)?.into_iter().map(depth).collect())
+    }
+
+    /// One sample per pixel; transparent faces count as solid.
+    fn samples(&self, camera: &Camera, size: [u32; 2], look: &Look) -> Result<Vec<Sample>, RenderError> {
         check(size)?;
         let plain = Look { edges: EdgeStyle::None, ..*look };
-        let prepared = Prepared::new(self, camera, size, &plain, 1.0);
+        let mut prepared = Prepared::new(self, camera, size, &plain, 1.0);
+        let clear = std::mem::take(&mut prepared.clear);
+        prepared.solid.extend(clear);
+        prepared.lines.clear();
         let [width, height] = size.map(|n| n as usize);
         let bands: Vec<usize> = (0..height.div_ceil(BAND)).collect();
-        let pixels = bands.into_par_iter().flat_map_iter(|band| {
+        let samples = bands.into_par_iter().flat_map_iter(|band| {
             let rows = BAND.min(height - band * BAND);
-            let samples = prepared.band(band * BAND, rows, width, &plain);
-            samples.into_iter().map(|s| {
-                let pick = |(instance, face, share)| Pick {
-                    instance: instance as usize,
-                    face: face as usize,
-                    share,
-                };
-                s.pick.map(pick)
-            })
+            prepared.band(band * BAND, rows, width, &plain)
         });
-        Ok(Seen { width: size[0], height: size[1], pixels: pixels.collect() })
+        Ok(samples.collect())
     }
 
     /// What lies at a pixel.
@@ -261,7 +277,12 @@ impl Prepared {
             };
             if look.edges != EdgeStyle::None {
                 let edges = part.faces.iter().filter(|face| !face.is_hidden).flat_map(|face| &face.edges);
-                edges.for_each(|s| add(s.a, s.b, [0.012, 0.014, 0.018, 1.0], true));
+                for edge in edges {
+                    let points = edge.sample(mesh.linear_deflection_mm);
+                    points
+                        .windows(2)
+                        .for_each(|pair| add(pair[0], pair[1], [0.012, 0.014, 0.018, 1.0], true));
+                }
             }
             for (points, color) in &part.curves {
                 let color = linear(instance.color.or(*color).unwrap_or(Rgba::opaque(0.1, 0.1, 0.1)));

@@ -8,7 +8,7 @@ use trimloop_brep::Rgba;
 
 use crate::camera::{Camera, Projection};
 use crate::look::{Look, linear};
-use crate::scene::{FaceKind, Instance, Scene, SceneFace};
+use crate::scene::{Instance, Scene, SceneFace};
 use crate::stage::{PieceKey, SEGMENTS, Stage, Strip, VERTICES};
 
 /// As in `shaders/shared/frame.wgsl`.
@@ -87,7 +87,7 @@ pub(crate) struct Lists {
 }
 
 /// Half the width of borders, pixels.
-const BORDER_PX: f32 = 0.3;
+const BORDER_PX: f32 = 0.25;
 const BORDER_SHIFT_PX: f32 = 0.5;
 const EDGE_PX: f32 = 0.7;
 const EDGE_SHIFT_PX: f32 = 2.0;
@@ -154,12 +154,12 @@ impl Shot<'_> {
             let item = lists.items.len() as u32;
             lists.faces.push((one.instance, one.key.face));
             lists.items.push(placed.item(staged.origin, color, staged.trim, item + 1));
-            lists.add_strip(item, &staged.edges, Kind::Edge);
-            let evaluated = || stage.piece(&one.key);
-            let Some(piece) = staged.triangles.as_ref().or_else(evaluated) else { continue };
+            let Some(evaluated) = stage.piece(&one.key) else { continue };
+            lists.add_strip(item, &evaluated.edges, Kind::Edge);
+            let piece = staged.triangles.as_ref().unwrap_or(evaluated);
             let is_clear = color[3] < 0.999;
             if !is_clear {
-                lists.add_strip(item, &staged.border, Kind::Border);
+                lists.add_strip(item, &piece.border, Kind::Border);
             }
             let base = (lists.blocks.len() * VERTICES) as u32;
             let blocks = (0..piece.blocks).map(|k| [item, piece.first_vertex + k * VERTICES as u32]);
@@ -361,9 +361,4 @@ impl Frustum {
         let is_ahead = self.is_parallel || center.z - radius < 0.0;
         is_ahead && self.sides.iter().all(|(normal, offset)| normal.dot(center) + offset >= -radius)
     }
-}
-
-/// Whether a face is drawn at all.
-pub(crate) fn is_evaluated(face: &SceneFace) -> bool {
-    matches!(face.kind, FaceKind::Surface(_))
 }

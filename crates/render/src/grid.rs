@@ -3,7 +3,7 @@
 use glam::DVec2;
 use trimloop_gpu::Cover;
 
-use crate::surface_face::{Bounds, SurfaceFace};
+use crate::surface_face::{Bounds, Spans, SurfaceFace};
 
 /// A grid over a face's domain: lines along u and along v, as shares of the domain.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,8 +29,7 @@ impl Grid {
     /// A grid whose triangles are within `off_mm` of the surface, and whose interpolated parameters belong to points
     /// within `off_mm` of theirs.
     pub fn new(face: &SurfaceFace, off_mm: f64) -> Self {
-        let cells = cells(&face.bounds, off_mm);
-        Self { lines: [0, 1].map(|d| lines(&face.creases[d], cells[d])) }
+        Self { lines: lines(&face.bounds, off_mm) }
     }
 
     /// Number of vertices.
@@ -61,33 +60,70 @@ impl Grid {
     }
 }
 
-/// Cells along u and along v so that bilinear patches, cut into triangles, are within `off_mm`: an eighth of the second
-/// derivatives times the squared steps (Piegl & Tiller 5.4; Filip, Magedson, Markot 1986).
-fn cells(bounds: &Bounds, off_mm: f64) -> [usize; 2] {
-    let [uu, uv, vv] = bounds.second;
-    let mut n = [uu, vv].map(|second| (second / (8.0 * off_mm)).sqrt().max(1.0));
-    let off = |n: [f64; 2]| (uu / (n[0] * n[0]) + 2.0 * uv / (n[0] * n[1]) + vv / (n[1] * n[1])) / 8.0;
-    let excess = off(n) / off_mm;
-    if excess > 1.0 {
-        n = n.map(|n| n * excess.sqrt());
-    }
-    [0, 1].map(|d| {
+/// Lines so that bilinear cells, cut into triangles, are within `off_mm`: an eighth of the second derivatives times the
+/// squared steps (Piegl & Tiller 5.4; Filip, Magedson, Markot 1986), span by span.
+fn lines(bounds: &Bounds, off_mm: f64) -> [Vec<f64>; 2] {
+    let densities = [0, 1].map(|d| -> Vec<f64> {
+        let own = &bounds.along[d];
         let by_length = bounds.lengths[d] / (LONGEST * off_mm);
-        (n[d].max(by_length).ceil() as usize).clamp(1, MOST_CELLS)
-    })
+        // From crease to crease there is one cell at least.
+        let density = |(k, second): (usize, &f64)| {
+            (second / (8.0 * off_mm)).sqrt().max(by_length).max(1.0 / run_length(own, k))
+        };
+        own.second.iter().enumerate().map(density).collect()
+    });
+    // Both directions use up the whole of what is allowed, and a twist comes on top.
+    let step = |d: usize, k: usize| 1.0 / densities[d][k];
+    let mut most: f64 = 1.0;
+    for i in 0..densities[0].len() {
+        for j in 0..densities[1].len() {
+            let (h, k) = (step(0, i), step(1, j));
+            let [u, v] = &bounds.along;
+            let mixed = u.mixed[i].min(v.mixed[j]);
+            let off = (u.second[i] * h * h + 2.0 * mixed * h * k + v.second[j] * k * k) / 8.0;
+            most = most.max(off / off_mm);
+        }
+    }
+    let scale = most.sqrt();
+    [0, 1].map(|d| spread(&bounds.along[d], &densities[d], scale))
 }
 
-/// Even lines between the creases, `cells` in all or a few more.
-fn lines(creases: &[f64], cells: usize) -> Vec<f64> {
-    let mut ends = vec![0.0];
-    ends.extend_from_slice(creases);
-    ends.push(1.0);
+/// The distance between the creases around a span.
+fn run_length(own: &Spans, span: usize) -> f64 {
+    let low = (0..span).rev().find(|&k| own.is_crease[k]).map_or(0.0, |k| own.ends[k + 1]);
+    let high = (span..own.is_crease.len()).find(|&k| own.is_crease[k]).map_or(1.0, |k| own.ends[k + 1]);
+    high - low
+}
+
+/// Lines at equal steps of the densities (cells per unit), and where they change much or the surface has a kink.
+fn spread(own: &Spans, densities: &[f64], scale: f64) -> Vec<f64> {
+    let is_stop = |k: usize| {
+        let (a, b) = (densities[k], densities[k + 1]);
+        own.is_crease[k] || a.max(b) > 2.0 * a.min(b)
+    };
+    let whole: f64 = own.ends.windows(2).zip(densities).map(|(e, d)| (e[1] - e[0]) * d * scale).sum();
+    let scale = scale * (MOST_CELLS as f64 / whole).min(1.0);
     let mut out = vec![0.0];
-    for pair in ends.windows(2) {
-        let length = pair[1] - pair[0];
-        let count = ((length * cells as f64) - 1e-9).ceil().max(1.0) as usize;
-        out.extend((1..count).map(|k| pair[0] + length * k as f64 / count as f64));
-        out.push(pair[1]);
+    let mut first = 0;
+    for last in 0..densities.len() {
+        if last + 1 < densities.len() && !is_stop(last) {
+            continue;
+        }
+        let spans = first..=last;
+        let amount = |k: usize| (own.ends[k + 1] - own.ends[k]) * densities[k] * scale;
+        let total: f64 = spans.clone().map(amount).sum();
+        let cells = (total - 1e-9).ceil().max(1.0);
+        let (mut done, mut k) = (0.0, first);
+        for cell in 1..cells as usize {
+            let wanted = total * cell as f64 / cells;
+            while k < last && done + amount(k) < wanted {
+                done += amount(k);
+                k += 1;
+            }
+            out.push(own.ends[k] + (wanted - done) / (densities[k] * scale));
+        }
+        out.push(own.ends[last + 1]);
+        first = last + 1;
     }
     out
 }
@@ -96,18 +132,32 @@ fn lines(creases: &[f64], cells: usize) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_twist_needs_cells_too() {
-        let bounds = Bounds { lengths: [1.0; 2], second: [0.0, 8.0, 0.0] };
-        let [u, v] = cells(&bounds, 0.02);
-        assert!(2.0 * 8.0 / (8.0 * (u * v) as f64) <= 0.02);
-        assert_eq!(cells(&Bounds { lengths: [1.0; 2], second: [0.0; 3] }, 0.1), [1, 1]);
+    fn spans(ends: &[f64], second: &[f64], mixed: f64, creases: &[bool]) -> Spans {
+        Spans {
+            ends: ends.to_vec(),
+            second: second.to_vec(),
+            mixed: vec![mixed; second.len()],
+            is_crease: creases.to_vec(),
+        }
     }
 
     #[test]
-    fn creases_are_lines() {
-        assert_eq!(lines(&[0.5], 1), [0.0, 0.5, 1.0]);
-        assert_eq!(lines(&[], 4), [0.0, 0.25, 0.5, 0.75, 1.0]);
-        assert_eq!(lines(&[0.25], 4), [0.0, 0.25, 0.5, 0.75, 1.0]);
+    fn a_twist_needs_cells_too() {
+        let flat = spans(&[0.0, 1.0], &[0.0], 8.0, &[]);
+        let bounds = Bounds { lengths: [1.0; 2], along: [flat.clone(), flat] };
+        let [u, v] = lines(&bounds, 0.02).map(|lines| (lines.len() - 1) as f64);
+        assert!(2.0 * 8.0 / (8.0 * u * v) <= 0.02);
+        let flat = spans(&[0.0, 1.0], &[0.0], 0.0, &[]);
+        let bounds = Bounds { lengths: [1.0; 2], along: [flat.clone(), flat] };
+        assert_eq!(lines(&bounds, 0.1), [vec![0.0, 1.0], vec![0.0, 1.0]]);
+    }
+
+    #[test]
+    fn lines_stand_where_the_surface_bends() {
+        let own = spans(&[0.0, 0.5, 0.75, 1.0], &[0.0; 3], 0.0, &[false, false]);
+        assert_eq!(spread(&own, &[2.0, 2.0, 2.0], 1.0), [0.0, 0.5, 1.0]);
+        assert_eq!(spread(&own, &[1.0, 8.0, 8.0], 1.0), [0.0, 0.5, 0.625, 0.75, 0.875, 1.0]);
+        let kinked = Spans { is_crease: vec![false, true], ..own };
+        assert_eq!(spread(&kinked, &[1.0, 1.0, 1.0], 1.0), [0.0, 0.75, 1.0]);
     }
 }

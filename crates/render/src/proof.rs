@@ -1,9 +1,11 @@
 //! Whether a picture is what it claims to be.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::picture::{Pick, Seen};
-use crate::{Camera, CpuRenderer, Look, RenderError, Renderer, Scene};
+use crate::border::border_of;
+use crate::picture::Pick;
+use crate::{Camera, CpuRenderer, FaceKind, Look, RenderError, Renderer, Scene};
 
 /// How far a picture is from the exact model.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,13 +46,11 @@ pub fn prove(
     size: [u32; 2],
     look: &Look,
 ) -> Result<Proof, RenderError> {
-    let own = renderer.seen(camera, size, look)?;
-    let wanted = reference.seen(camera, size, look)?;
+    let seen = renderer.seen(camera, size, look)?;
+    let wanted = reference.depths(camera, size, look)?;
     let scene = renderer.scene();
-    let of =
-        |seen: &Seen| -> Vec<Spot> { seen.pixels.par_iter().map(|p| Spot::of(scene, camera, p)).collect() };
-    let (own, wanted) = (of(&own), of(&wanted));
-    let depths = || own.iter().chain(&wanted).map(|s| s.depth).filter(|d| d.is_finite());
+    let own: Vec<Spot> = seen.pixels.par_iter().map(|p| Spot::of(scene, camera, p)).collect();
+    let depths = || wanted.iter().copied().filter(|d| d.is_finite());
     let range = depths().fold(f64::NEG_INFINITY, f64::max) - depths().fold(f64::INFINITY, f64::min);
     let slack = SAME_DEPTH * range.max(0.0)
         + 2.0 * camera.pixel(size[1]) * if camera.is_parallel() { 1.0 } else { depths().fold(0.0, f64::max) };
@@ -72,16 +72,34 @@ pub fn prove(
         let rows = y.saturating_sub(1)..=(y + 1).min(height - 1);
         let around =
             rows.flat_map(|j| (x.saturating_sub(1)..=(x + 1).min(width - 1)).map(move |i| j * width + i));
-        let near: Vec<&Spot> = around.map(|k| &wanted[k]).collect();
-        if near.iter().any(|s| s.is_covered && s.point.is_none()) {
-            continue;
-        }
-        let farthest = near.iter().map(|s| s.depth).fold(f64::NEG_INFINITY, f64::max);
-        let nearest = near.iter().map(|s| s.depth).fold(f64::INFINITY, f64::min);
+        let near: Vec<f64> = around.map(|k| wanted[k]).collect();
+        let farthest = near.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let nearest = near.iter().copied().fold(f64::INFINITY, f64::min);
         proof.cracks += usize::from(spot.depth > farthest + slack);
-        proof.spills += usize::from(spot.depth < nearest - slack);
+        if spot.depth < nearest - slack {
+            // A sheet that is seen edge-on lies between the reference's samples.
+            let is_on_face = |pick: &Pick| is_on_face(scene, camera, size, pick);
+            proof.spills += usize::from(!seen.pixels[k].as_ref().is_some_and(is_on_face));
+        }
     }
     Ok(proof)
+}
+
+/// Whether the exact point is inside its face, or within half a pixel of its boundary.
+fn is_on_face(scene: &Scene, camera: &Camera, size: [u32; 2], pick: &Pick) -> bool {
+    let instance = &scene.instances[pick.instance];
+    let FaceKind::Surface(face) = &scene.parts[instance.part].faces[pick.face].kind else { return true };
+    let uv = face.parameters(pick.share);
+    if face.domain.contains(uv) {
+        return true;
+    }
+    let place = |p: DVec3| camera.project(instance.transform.transform_point3(p), size);
+    let Some(own) = place(face.shape.derivatives(uv).point) else { return false };
+    let off_mm = 1e-6 * face.shape.size();
+    border_of(face, off_mm).iter().any(|s| match (place(s.a), place(s.b)) {
+        (Some(a), Some(b)) => trimloop_trim::polygon::segment_distance(own, a, b) <= 0.5,
+        _ => false,
+    })
 }
 
 /// What a pixel shows.

@@ -8,7 +8,7 @@ use wgpu::util::DeviceExt;
 
 use crate::camera::Camera;
 use crate::error::MOST_PIXELS;
-use crate::frame::{Lists, Shot, Tile, Visible, is_evaluated};
+use crate::frame::{Lists, Shot, Tile, Visible};
 use crate::look::{Background, EdgeStyle, Look, encode, linear};
 use crate::passes::{Pass, Passes};
 use crate::picture::{Pick, Picture, Seen};
@@ -181,7 +181,7 @@ impl Renderer {
         let start = Instant::now();
         let shot = Shot { scene: &self.scene, camera, look, size };
         let visible = shot.visible();
-        let keys = || visible.iter().filter(|v| is_evaluated(face(&self.scene, &v.key))).map(|v| v.key);
+        let keys = || visible.iter().map(|v| v.key);
         self.stage.evaluated = 0;
         if self.stage.vertices.bytes() > KEPT_BYTES {
             let used: FxHashSet<PieceKey> = keys().collect();
@@ -293,10 +293,6 @@ fn pick_of([id, u, v, _]: [u32; 4], faces: &[(u32, u32)]) -> Option<Pick> {
     let &(instance, face) = faces.get(id.checked_sub(1)? as usize)?;
     let share = glam::DVec2::new(f64::from(f32::from_bits(u)), f64::from(f32::from_bits(v)));
     Some(Pick { instance: instance as usize, face: face as usize, share })
-}
-
-fn face<'a>(scene: &'a Scene, key: &PieceKey) -> &'a crate::SceneFace {
-    &scene.parts[key.part as usize].faces[key.face as usize]
 }
 
 pub(crate) fn check([width, height]: [u32; 2]) -> Result<(), RenderError> {

@@ -9,7 +9,7 @@ use trimloop_mesh::{FaceStatus, MeshOptions, Monitor};
 use trimloop_trim::Tolerance;
 use trimloop_trim::curves::trim_curves;
 
-use crate::border::{Segment, edge_segments, loop_segments};
+use crate::border::{EdgeCurve, edges_of};
 use crate::surface_face::SurfaceFace;
 
 /// A model made ready to be drawn.
@@ -47,10 +47,8 @@ pub struct SceneFace {
     pub is_hidden: bool,
     /// What is drawn.
     pub kind: FaceKind,
-    /// Its boundary.
-    pub(crate) border: Vec<Segment>,
     /// The edges that are drawn with it; each edge of the part goes with one face.
-    pub(crate) edges: Vec<Segment>,
+    pub(crate) edges: Vec<EdgeCurve>,
     /// A sphere around it: centre and radius.
     pub sphere: (DVec3, f64),
 }
@@ -215,8 +213,7 @@ impl SceneFace {
             color: face.color.or(part.color),
             is_hidden: face.hidden,
             kind: FaceKind::Lost(String::new()),
-            border: Vec::new(),
-            edges: edge_segments(part, index, samples, owners),
+            edges: edges_of(part, index, owners),
             sphere: (DVec3::ZERO, 0.0),
         };
         let Ok(found) = shape else { return out };
@@ -227,7 +224,6 @@ impl SceneFace {
         let [u, v] = found.shape.domain();
         let (low, high) = (glam::DVec2::new(u.start, v.start), glam::DVec2::new(u.end, v.end));
         let Ok(table) = TrimTable::within(&chains, TRIM_CELLS, low, high) else { return out };
-        out.border = loop_segments(&found, samples);
         let Some(surface) = SurfaceFace::new(found, chains, table) else { return out };
         out.sphere = surface.sphere();
         out.kind = FaceKind::Surface(Box::new(surface));
@@ -235,9 +231,8 @@ impl SceneFace {
     }
 
     fn outline(&self) -> Vec<DVec3> {
-        let border = self.border.iter().chain(&self.edges).flat_map(|s| [s.a, s.b]);
         match &self.kind {
-            FaceKind::Surface(surface) => border.chain(surface.places_inside().iter().copied()).collect(),
+            FaceKind::Surface(surface) => surface.outline(),
             FaceKind::Triangles(own) => own.positions.iter().map(|p| *p + own.origin).collect(),
             FaceKind::Empty | FaceKind::Lost(_) => Vec::new(),
         }

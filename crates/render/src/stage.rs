@@ -1,15 +1,18 @@
 //! A scene on the device: what does not depend on the view, and the grids that were evaluated so far.
 
-use glam::{DVec3, Vec4};
+use glam::{DVec2, DVec3, Vec4};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use trimloop_gpu::{Evaluator, Gpu, GpuError, Places, Quantities, Request, TrimHeader, TrimTable};
 
 use crate::arena::Arena;
-use crate::border::Segment;
+use crate::border::{EdgeCurve, Segment, border_of};
 use crate::grid::{Grid, Triangulated};
-use crate::scene::{FaceKind, Scene, Triangles};
+use crate::scene::{FaceKind, Scene, SceneFace, Triangles};
 use crate::surface_face::SurfaceFace;
+
+/// Chords of boundaries and edges may be off by this share of what faces may.
+const STRIPS: f64 = 0.5;
 
 /// Vertices of a block; segments of a block.
 pub(crate) const VERTICES: usize = 64;
@@ -39,8 +42,6 @@ pub(crate) struct StagedFace {
     pub origin: DVec3,
     /// Number of its trim table.
     pub trim: u32,
-    pub border: Strip,
-    pub edges: Strip,
     /// The triangles of a face that is not evaluated.
     pub triangles: Option<Piece>,
 }
@@ -73,6 +74,17 @@ pub(crate) struct Piece {
     pub first_vertex: u32,
     pub blocks: u32,
     pub triangles: Triangulated,
+    pub border: Strip,
+    pub edges: Strip,
+}
+
+/// What a piece is made of, before it goes to the device.
+struct Draft<'a> {
+    key: PieceKey,
+    surface: Option<(&'a SurfaceFace, Grid)>,
+    triangles: Triangulated,
+    border: Vec<[Vec4; 4]>,
+    edges: Vec<[Vec4; 4]>,
 }
 
 /// The trim tables of all faces, behind each other.
@@ -143,7 +155,6 @@ impl Stage {
                     FaceKind::Surface(surface) => {
                         staged.origin = surface.shape.origin();
                         staged.trim = stage.trims.add(gpu, &surface.table)?;
-                        staged.border = stage.add_strip(gpu, &face.border, staged.origin, Some(surface))?;
                     }
                     FaceKind::Triangles(triangles) => {
                         staged.origin = triangles.origin;
@@ -151,17 +162,14 @@ impl Stage {
                     }
                     FaceKind::Empty | FaceKind::Lost(_) => {}
                 }
-                staged.edges = stage.add_strip(gpu, &face.edges, staged.origin, None)?;
                 faces.push(staged);
             }
             stage.faces.push(faces);
             let mut curves = Vec::new();
             for (points, _) in &part.curves {
                 let origin = points[points.len() / 2];
-                let chords =
-                    points.windows(2).map(|pair| Segment { a: pair[0], b: pair[1], uv: Default::default() });
-                let chords: Vec<Segment> = chords.collect();
-                curves.push(StagedCurve { origin, strip: stage.add_strip(gpu, &chords, origin, None)? });
+                let packed = packed(&chords(points), origin, None);
+                curves.push(StagedCurve { origin, strip: stage.add_strip(gpu, &packed)? });
             }
             stage.curves.push(curves);
         }
@@ -173,30 +181,11 @@ impl Stage {
         self.trims.bytes() + self.vertices.bytes() + self.segments.bytes()
     }
 
-    fn add_strip(
-        &mut self,
-        gpu: &Gpu,
-        segments: &[Segment],
-        origin: DVec3,
-        surface: Option<&SurfaceFace>,
-    ) -> Result<Strip, GpuError> {
-        if segments.is_empty() {
+    fn add_strip(&mut self, gpu: &Gpu, packed: &[[Vec4; 4]]) -> Result<Strip, GpuError> {
+        if packed.is_empty() {
             return Ok(Strip::default());
         }
-        let end = |p: DVec3, u: f64| (p - origin).as_vec3().extend(u as f32);
-        let normal = |uv: glam::DVec2| {
-            let found = surface.map_or(DVec3::ZERO, |s| s.shape.normal(s.parameters(uv)));
-            found.as_vec3().extend(uv.y as f32)
-        };
-        let packed = |s: &Segment| {
-            let [a, b] = s.uv;
-            [end(s.a, a.x), end(s.b, b.x), normal(a), normal(b)]
-        };
-        let mut packed: Vec<[Vec4; 4]> = segments.iter().map(packed).collect();
-        // What fills a block is no longer than a point.
-        let last = packed[packed.len() - 1];
-        packed.resize(packed.len().next_multiple_of(SEGMENTS), [last[1], last[1], last[3], last[3]]);
-        let first = self.segments.add(gpu, &packed)? as u32;
+        let first = self.segments.add(gpu, packed)? as u32;
         Ok(Strip { first, blocks: (packed.len() / SEGMENTS) as u32 })
     }
 
@@ -208,7 +197,8 @@ impl Stage {
         let first = self.vertices.add(gpu, &packed)? as u32;
         let whole = own.triangles.iter().flatten().copied().collect();
         let blocks = (packed.len() / VERTICES) as u32;
-        Ok(Piece { first_vertex: first, blocks, triangles: Triangulated { whole, part: Vec::new() } })
+        let triangles = Triangulated { whole, part: Vec::new() };
+        Ok(Piece { first_vertex: first, blocks, triangles, ..Piece::default() })
     }
 
     /// A face at a level, once it is evaluated.
@@ -230,52 +220,61 @@ impl Stage {
         wanted.retain(|key| !self.pieces.contains_key(key));
         wanted.sort_unstable_by_key(|key| (key.part, key.face, key.level));
         wanted.dedup();
-        let made: Vec<(PieceKey, &SurfaceFace, Grid, Triangulated)> = wanted
+        let staged = &self.faces;
+        let drafts: Vec<Draft<'_>> = wanted
             .into_par_iter()
-            .filter_map(|key| {
+            .map(|key| {
                 let face = &scene.parts[key.part as usize].faces[key.face as usize];
-                let FaceKind::Surface(surface) = &face.kind else { return None };
-                let grid = Grid::new(surface, f64::from(key.level).exp2());
-                let triangles = grid.triangulate(surface);
-                Some((key, &**surface, grid, triangles))
+                Draft::new(key, face, staged[key.part as usize][key.face as usize].origin)
             })
             .collect();
-        if made.is_empty() {
-            return Ok(());
-        }
-        let requests: Vec<Request<'_>> = made
+        let grids: Vec<(usize, &SurfaceFace, &Grid)> = drafts
             .iter()
-            .map(|(_, face, grid, _)| {
-                let domain = face.shape.domain();
-                let [us, vs] = [0, 1].map(|d| grid.lines[d].iter().map(|s| domain[d].at(*s)).collect());
-                Request { shape: &face.shape, places: Places::Grid { us, vs } }
+            .enumerate()
+            .filter_map(|(k, draft)| draft.surface.as_ref().map(|(face, grid)| (k, *face, grid)))
+            .collect();
+        let request = |&(_, face, grid): &(usize, &'_ SurfaceFace, &Grid)| {
+            let domain = face.shape.domain();
+            [0, 1].map(|d| grid.lines[d].iter().map(|s| domain[d].at(*s)).collect::<Vec<f64>>())
+        };
+        let requests: Vec<Request<'_>> = grids
+            .iter()
+            .map(|one| {
+                let [us, vs] = request(one);
+                Request { shape: &one.1.shape, places: Places::Grid { us, vs } }
             })
             .collect();
-        let values = evaluator.evaluate_on_device(&requests, Quantities::Normals)?;
-        let mut firsts = Vec::with_capacity(made.len());
-        for (_, _, grid, _) in &made {
-            firsts.push(self.vertices.take(gpu, grid.len().next_multiple_of(VERTICES))?);
+        let mut firsts = vec![0; drafts.len()];
+        for (k, _, grid) in &grids {
+            firsts[*k] = self.vertices.take(gpu, grid.len().next_multiple_of(VERTICES))?;
             self.evaluated += grid.len();
         }
-        let mut encoder = gpu.device().create_command_encoder(&Default::default());
-        let stride = size_of::<[Vec4; 2]>() as u64;
-        for batch in values.batches() {
-            for piece in &batch.pieces {
-                let columns = made[piece.request].2.lines[1].len();
-                let to = firsts[piece.request] + piece.first * columns;
-                encoder.copy_buffer_to_buffer(
-                    &batch.buffer,
-                    piece.offset as u64 * stride,
-                    self.vertices.buffer(),
-                    to as u64 * stride,
-                    piece.points as u64 * stride,
-                );
+        if !requests.is_empty() {
+            let values = evaluator.evaluate_on_device(&requests, Quantities::Normals)?;
+            let mut encoder = gpu.device().create_command_encoder(&Default::default());
+            let stride = size_of::<[Vec4; 2]>() as u64;
+            for batch in values.batches() {
+                for piece in &batch.pieces {
+                    let (k, _, grid) = grids[piece.request];
+                    let to = firsts[k] + piece.first * grid.lines[1].len();
+                    encoder.copy_buffer_to_buffer(
+                        &batch.buffer,
+                        piece.offset as u64 * stride,
+                        self.vertices.buffer(),
+                        to as u64 * stride,
+                        piece.points as u64 * stride,
+                    );
+                }
             }
+            gpu.queue().submit([encoder.finish()]);
         }
-        gpu.queue().submit([encoder.finish()]);
-        for ((key, _, grid, triangles), first) in made.into_iter().zip(firsts) {
-            let blocks = grid.len().div_ceil(VERTICES) as u32;
-            self.pieces.insert(key, Piece { first_vertex: first as u32, blocks, triangles });
+        for (draft, first) in drafts.into_iter().zip(firsts) {
+            let blocks = draft.surface.map_or(0, |(_, grid)| grid.len().div_ceil(VERTICES)) as u32;
+            let border = self.add_strip(gpu, &draft.border)?;
+            let edges = self.add_strip(gpu, &draft.edges)?;
+            let triangles = draft.triangles;
+            self.pieces
+                .insert(draft.key, Piece { first_vertex: first as u32, blocks, triangles, border, edges });
         }
         Ok(())
     }
@@ -286,7 +285,60 @@ impl Stage {
         for key in unused {
             if let Some(piece) = self.pieces.remove(&key) {
                 self.vertices.give_back(piece.first_vertex as usize, piece.blocks as usize * VERTICES);
+                for strip in [piece.border, piece.edges] {
+                    self.segments.give_back(strip.first as usize, strip.blocks as usize * SEGMENTS);
+                }
             }
         }
     }
+}
+
+impl<'a> Draft<'a> {
+    fn new(key: PieceKey, face: &'a SceneFace, origin: DVec3) -> Self {
+        let off_mm = f64::from(key.level).exp2();
+        let mut out = Self {
+            key,
+            surface: None,
+            triangles: Triangulated::default(),
+            border: Vec::new(),
+            edges: Vec::new(),
+        };
+        if let FaceKind::Surface(surface) = &face.kind {
+            let grid = Grid::new(surface, off_mm);
+            out.triangles = grid.triangulate(surface);
+            out.border = packed(&border_of(surface, STRIPS * off_mm), origin, Some(surface));
+            out.surface = Some((&**surface, grid));
+        }
+        let edge = |edge: &EdgeCurve| chords(&edge.sample(STRIPS * off_mm));
+        let edges: Vec<Segment> = face.edges.iter().flat_map(edge).collect();
+        out.edges = packed(&edges, origin, None);
+        out
+    }
+}
+
+fn chords(points: &[DVec3]) -> Vec<Segment> {
+    let chord = |pair: &[DVec3]| Segment { a: pair[0], b: pair[1], uv: Default::default() };
+    points.windows(2).map(chord).collect()
+}
+
+/// Segments as the device reads them, relative to `origin`, in whole blocks.
+fn packed(segments: &[Segment], origin: DVec3, surface: Option<&SurfaceFace>) -> Vec<[Vec4; 4]> {
+    let end = |p: DVec3, u: f64| (p - origin).as_vec3().extend(u as f32);
+    let at = |uv: DVec2| {
+        let Some(surface) = surface else { return (DVec2::ZERO, DVec3::ZERO) };
+        let [u, v] = surface.shape.domain();
+        let share = (uv - DVec2::new(u.start, v.start)) / DVec2::new(u.length(), v.length());
+        (share, surface.shape.normal(uv))
+    };
+    let one = |s: &Segment| {
+        let [(a, normal_a), (b, normal_b)] = s.uv.map(at);
+        let normal = |n: DVec3, v: f64| n.as_vec3().extend(v as f32);
+        [end(s.a, a.x), end(s.b, b.x), normal(normal_a, a.y), normal(normal_b, b.y)]
+    };
+    let mut packed: Vec<[Vec4; 4]> = segments.iter().map(one).collect();
+    // What fills a block is no longer than a point.
+    if let Some([_, b, _, normal]) = packed.last().copied() {
+        packed.resize(packed.len().next_multiple_of(SEGMENTS), [b, b, normal, normal]);
+    }
+    packed
 }

@@ -1,7 +1,5 @@
 //! A face that is evaluated on the device: its shape, and what its level of detail depends on.
 
-use std::sync::OnceLock;
-
 use glam::{DVec2, DVec3};
 use trimloop_geom::{Aabb, Direction, Surface};
 use trimloop_gpu::{FaceShape, Places, Shape, TrimTable};
@@ -20,26 +18,36 @@ pub struct SurfaceFace {
     /// Its trim loops as the device reads them.
     pub table: TrimTable,
     /// Where, as shares of the domain along u and along v, the surface has kinks: grids have lines there.
-    pub(crate) creases: [Vec<f64>; 2],
     pub(crate) bounds: Bounds,
     box_mm: Aabb,
     is_whole: bool,
-    inside: OnceLock<Vec<DVec3>>,
 }
 
-/// How large, and how far from straight, a surface is over the whole of its domain. Millimetres; derivatives are with
-/// respect to shares of the domain.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// How large, and how far from straight, a surface is. Millimetres; derivatives are with respect to shares of the domain.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Bounds {
     /// Largest lengths along u and along v.
     pub lengths: [f64; 2],
-    /// Largest second derivatives by u, by u and v, by v.
-    pub second: [f64; 3],
+    /// Along u and along v.
+    pub along: [Spans; 2],
 }
 
-/// Samples of a span along each direction, and of all spans together.
+/// What a surface does between the places of one direction where it may not be smooth.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Spans {
+    /// Ends of spans, from 0 to 1.
+    pub ends: Vec<f64>,
+    /// Per span the largest second derivative in this direction.
+    pub second: Vec<f64>,
+    /// Per span the largest mixed derivative.
+    pub mixed: Vec<f64>,
+    /// Per inner end whether the surface has a kink there.
+    pub is_crease: Vec<bool>,
+}
+
+/// Samples of a span; lines across on which they lie.
 const SAMPLES: usize = 5;
-const MOST_SAMPLES: usize = 65;
+const ACROSS: usize = 33;
 /// Between samples, second derivatives exceed them by less than this share.
 const BETWEEN: f64 = 1.15;
 /// A larger turn of a first derivative at a knot, radians, is a kink.
@@ -49,27 +57,15 @@ impl SurfaceFace {
     pub(crate) fn new(face: FaceShape, chains: Vec<Vec<Cubic>>, table: TrimTable) -> Option<Self> {
         let FaceShape { shape, domain, .. } = face;
         let lines = [Direction::U, Direction::V].map(|d| breaks(&shape, d));
-        let creases = [0, 1].map(|d| creases(&shape, d, &lines[d]));
-        let (bounds, box_mm) = measure(&shape, &lines);
-        let is_finite = bounds.second.iter().chain(&bounds.lengths).all(|x| x.is_finite());
+        let (bounds, box_mm) = Bounds::of(&shape, &lines);
+        let is_finite = bounds.is_finite() && box_mm.diagonal().is_finite();
         let is_whole = is_whole(&shape, &chains);
-        is_finite.then(|| Self {
-            shape,
-            domain,
-            chains,
-            table,
-            creases,
-            bounds,
-            box_mm,
-            is_whole,
-            inside: OnceLock::new(),
-        })
+        is_finite.then(|| Self { shape, domain, chains, table, bounds, box_mm, is_whole })
     }
 
     /// A sphere around it.
     pub(crate) fn sphere(&self) -> (DVec3, f64) {
-        let bulge = self.bounds.second.iter().sum::<f64>() / 16.0;
-        (self.box_mm.center(), 0.5 * self.box_mm.diagonal() + bulge.min(0.1 * self.box_mm.diagonal()))
+        (self.box_mm.center(), 0.55 * self.box_mm.diagonal())
     }
 
     /// Whether the face is the whole of its domain: nothing is trimmed.
@@ -88,14 +84,14 @@ impl SurfaceFace {
         DVec2::new(u.at(share.x), v.at(share.y))
     }
 
-    /// Some points of the face.
-    pub(crate) fn places_inside(&self) -> &[DVec3] {
-        self.inside.get_or_init(|| {
-            let Places::Grid { us, vs } = Places::even(&self.shape, 9, 9) else { return Vec::new() };
-            let all = us.iter().flat_map(|&u| vs.iter().map(move |&v| DVec2::new(u, v)));
-            let inside = all.filter(|uv| self.domain.contains(*uv));
-            inside.map(|uv| self.shape.derivatives(uv).point).filter(|p| p.is_finite()).collect()
-        })
+    /// Points of the face: its polygons' corners, and some inside.
+    pub(crate) fn outline(&self) -> Vec<DVec3> {
+        let Places::Grid { us, vs } = Places::even(&self.shape, 9, 9) else { return Vec::new() };
+        let all = us.iter().flat_map(|&u| vs.iter().map(move |&v| DVec2::new(u, v)));
+        let inside = all.filter(|uv| self.domain.contains(*uv));
+        let corners = self.domain.loops.iter().flat_map(|l| l.uvs());
+        let points = inside.chain(corners).map(|uv| self.shape.derivatives(uv).point);
+        points.filter(|p| p.is_finite()).collect()
     }
 }
 
@@ -131,8 +127,80 @@ fn breaks(shape: &Shape, direction: Direction) -> Vec<f64> {
     out
 }
 
-/// The inner breaks at which the first derivative turns.
-fn creases(shape: &Shape, d: usize, breaks: &[f64]) -> Vec<f64> {
+impl Bounds {
+    fn of(shape: &Shape, breaks: &[Vec<f64>; 2]) -> (Self, Aabb) {
+        let [u, v] = [0, 1].map(|d| Spans::measure(shape, breaks, d));
+        let box_mm = u.2.union(v.2);
+        (Self { lengths: [u.1, v.1], along: [u.0, v.0] }, box_mm)
+    }
+
+    fn is_finite(&self) -> bool {
+        let all = self.along.iter().flat_map(|s| s.second.iter().chain(&s.mixed));
+        all.chain(&self.lengths).all(|x| x.is_finite())
+    }
+}
+
+impl Spans {
+    /// The spans along `d`, the largest length along it, and a box of what was seen.
+    fn measure(shape: &Shape, breaks: &[Vec<f64>; 2], d: usize) -> (Self, f64, Aabb) {
+        let domain = shape.domain();
+        let ends = &breaks[d];
+        let each = (128 / (ends.len() - 1)).clamp(2, SAMPLES);
+        // Just inside the span, where derivatives are those of the span.
+        let inside = |k: usize, each: usize| (k as f64 / (each - 1) as f64).clamp(1e-6, 1.0 - 1e-6);
+        let along: Vec<f64> = ends
+            .windows(2)
+            .flat_map(|pair| (0..each).map(move |k| pair[0] + (pair[1] - pair[0]) * inside(k, each)))
+            .map(|share| domain[d].at(share))
+            .collect();
+        let across = across(&breaks[1 - d]).into_iter().map(|share| domain[1 - d].at(share)).collect();
+        let lines = if d == 0 { [&along, &across] } else { [&across, &along] };
+        let found = shape.derivatives_grid(lines[0], lines[1]);
+        let at = |k: usize, line: usize| {
+            if d == 0 { &found[k * across.len() + line] } else { &found[line * along.len() + k] }
+        };
+        let scale = domain.map(|d| d.length());
+        let most = |of: &dyn Fn(usize, usize) -> DVec3| -> Vec<f64> {
+            let span = |span: usize| {
+                let all =
+                    (span * each..(span + 1) * each).flat_map(|k| (0..across.len()).map(move |l| (k, l)));
+                all.map(|(k, line)| of(k, line).length())
+                    .fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a })
+            };
+            (0..ends.len() - 1).map(|k| span(k) * BETWEEN).collect()
+        };
+        let second = most(&|k, line| {
+            let found = at(k, line);
+            (if d == 0 { found.duu } else { found.dvv }) * scale[d] * scale[d]
+        });
+        let mixed = most(&|k, line| at(k, line).duv * scale[0] * scale[1]);
+        let length = |line: usize| {
+            (1..along.len()).map(|k| at(k - 1, line).point.distance(at(k, line).point)).sum::<f64>()
+        };
+        let length = (0..across.len()).map(length).fold(0.0, f64::max);
+        let is_crease = ends[1..ends.len() - 1].iter().map(|end| is_crease(shape, d, *end)).collect();
+        let box_mm = Aabb::from_points(found.iter().map(|d| d.point).filter(|p| p.is_finite()));
+        (Self { ends: ends.clone(), second, mixed, is_crease }, length, box_mm)
+    }
+}
+
+/// Lines across: several in every span where there are few spans, else one in some of them.
+fn across(breaks: &[f64]) -> Vec<f64> {
+    let spans = breaks.len() - 1;
+    let each = (ACROSS / spans).clamp(1, SAMPLES);
+    let stride = (spans * each).div_ceil(ACROSS);
+    let all = breaks.windows(2).flat_map(|pair| {
+        let share = |k: usize| match each {
+            1 => 0.5,
+            _ => (k as f64 / (each - 1) as f64).clamp(1e-6, 1.0 - 1e-6),
+        };
+        (0..each).map(move |k| pair[0] + (pair[1] - pair[0]) * share(k))
+    });
+    all.step_by(stride).collect()
+}
+
+/// Whether the first derivative turns at an inner break.
+fn is_crease(shape: &Shape, d: usize, at: f64) -> bool {
     let domain = shape.domain();
     let derivative = |at: f64, across: f64| {
         let mut uv = DVec2::ZERO;
@@ -141,50 +209,8 @@ fn creases(shape: &Shape, d: usize, breaks: &[f64]) -> Vec<f64> {
         let found = shape.derivatives(uv);
         if d == 0 { found.du } else { found.dv }
     };
-    let is_crease = |at: &&f64| {
-        [0.13, 0.5, 0.87].into_iter().any(|across| {
-            let (before, after) = (derivative(**at - 1e-9, across), derivative(**at + 1e-9, across));
-            before.cross(after).length() > KINK_RAD * before.length() * after.length()
-                || before.dot(after) < 0.0
-        })
-    };
-    breaks[1..breaks.len() - 1].iter().filter(is_crease).copied().collect()
-}
-
-fn measure(shape: &Shape, breaks: &[Vec<f64>; 2]) -> (Bounds, Aabb) {
-    let domain = shape.domain();
-    let lines = [0, 1].map(|d| {
-        let spans = breaks[d].len() - 1;
-        let each = (MOST_SAMPLES / spans).clamp(2, SAMPLES);
-        let mut out: Vec<f64> = Vec::new();
-        for pair in breaks[d].windows(2) {
-            // Just inside the span, where derivatives are those of the span.
-            let at = |k: usize| {
-                let share = (k as f64 / (each - 1) as f64).clamp(1e-6, 1.0 - 1e-6);
-                domain[d].at(pair[0] + (pair[1] - pair[0]) * share)
-            };
-            out.extend((0..each).map(at));
-        }
-        out
-    });
-    let found = shape.derivatives_grid(&lines[0], &lines[1]);
-    let columns = lines[1].len();
-    let scale = [domain[0].length(), domain[1].length()];
-    let mut bounds = Bounds::default();
-    for d in &found {
-        let own = [d.duu * scale[0] * scale[0], d.duv * scale[0] * scale[1], d.dvv * scale[1] * scale[1]];
-        for (most, own) in bounds.second.iter_mut().zip(own) {
-            *most = most.max(own.length() * BETWEEN);
-        }
-    }
-    let point = |i: usize, j: usize| found[i * columns + j].point;
-    for j in 0..columns {
-        let along: f64 = (1..lines[0].len()).map(|i| point(i - 1, j).distance(point(i, j))).sum();
-        bounds.lengths[0] = bounds.lengths[0].max(along);
-    }
-    for i in 0..lines[0].len() {
-        let along: f64 = (1..columns).map(|j| point(i, j - 1).distance(point(i, j))).sum();
-        bounds.lengths[1] = bounds.lengths[1].max(along);
-    }
-    (bounds, Aabb::from_points(found.iter().map(|d| d.point).filter(|p| p.is_finite())))
+    [0.13, 0.5, 0.87].into_iter().any(|across| {
+        let (before, after) = (derivative(at - 1e-9, across), derivative(at + 1e-9, across));
+        before.cross(after).length() > KINK_RAD * before.length() * after.length() || before.dot(after) < 0.0
+    })
 }
