@@ -29,7 +29,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Corner {
 @fragment
 fn paint(in: Corner) -> @location(0) vec4<f32> {
     let item = items[in.item];
-    if is_cut_away(in.place) {
+    if is_cut_away(in.item, in.place) {
         discard;
     }
     return vec4<f32>(shade(item.color.rgb, in.normal, sight(in.place)), 1.0);
@@ -37,7 +37,7 @@ fn paint(in: Corner) -> @location(0) vec4<f32> {
 
 @fragment
 fn identify(in: Corner) -> @location(0) vec4<u32> {
-    if is_cut_away(in.place) {
+    if is_cut_away(in.item, in.place) {
         discard;
     }
     let item = items[in.item];

@@ -31,7 +31,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Corner {
 
 @fragment
 fn paint(in: Corner) -> @location(0) vec4<f32> {
-    if is_cut_away(in.place) {
+    if is_cut_away(in.item, in.place) {
         discard;
     }
     var color = items[in.item].color;

@@ -64,7 +64,7 @@ fn paint(in: Corner) -> Painted {
     let item = items[in.item];
     var out: Painted;
     out.mask = coverage(item.trim, in.uv, across, down);
-    if out.mask == 0u || is_cut_away(in.place) {
+    if out.mask == 0u || is_cut_away(in.item, in.place) {
         discard;
     }
     out.color = vec4<f32>(shade(item.color.rgb, in.normal, sight(in.place)), 1.0);
@@ -85,7 +85,7 @@ fn veil(in: Corner) -> Veil {
     let item = items[in.item];
     var out: Veil;
     out.mask = coverage(item.trim, in.uv, across, down);
-    if out.mask == 0u || is_cut_away(in.place) {
+    if out.mask == 0u || is_cut_away(in.item, in.place) {
         discard;
     }
     let alpha = item.color.a;
@@ -103,7 +103,7 @@ fn identify(in: Corner) -> @location(0) vec4<u32> {
     if IS_TRIMMED == 1u && !is_inside(item.trim, in.uv) {
         discard;
     }
-    if is_cut_away(in.place) {
+    if is_cut_away(in.item, in.place) {
         discard;
     }
     return vec4<u32>(item.id, bitcast<u32>(in.uv.x), bitcast<u32>(in.uv.y), bitcast<u32>(in.clip.z));

@@ -32,8 +32,9 @@ struct Item {
     trim: u32,
     // What picking returns, from 1 on.
     id: u32,
-    unused_0: u32,
-    unused_1: u32,
+    // 1 where the section plane cuts nothing away: it closes what that cuts open.
+    is_cap: u32,
+    unused: u32,
 }
 
 @group(1) @binding(0) var<uniform> view: View;
@@ -55,8 +56,8 @@ fn shifted(p: vec3<f32>, pixels: f32) -> vec3<f32> {
     return p * (1.0 + pixels * view.pixel);
 }
 
-fn is_cut_away(p: vec3<f32>) -> bool {
-    return dot(view.section, vec4<f32>(p, 1.0)) > 0.0;
+fn is_cut_away(item: u32, p: vec3<f32>) -> bool {
+    return items[item].is_cap == 0u && dot(view.section, vec4<f32>(p, 1.0)) > 0.0;
 }
 
 // From the eye to the place, unit length.

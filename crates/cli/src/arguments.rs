@@ -573,7 +573,6 @@ pub struct InspectArguments {
 mod tests {
     use clap::{CommandFactory, Parser};
     use trimloop_mesh::{LinearDeflection, MeshOptions};
-    use trimloop_render::{Background, Direction, Lod, Section};
 
     use super::{Arguments, Command, ConvertArguments};
 

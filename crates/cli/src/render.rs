@@ -120,11 +120,15 @@ impl Studio<'_> {
         let mut scene = Scene::new(&model, &progress)?;
         drop(progress);
         self.choose(&model, &mut scene)?;
+        let mut look = self.look();
+        if let Some(section) = &arguments.section {
+            let progress = Progress::new(scene.face_count(), arguments.quiet);
+            look.section = Some(scene.cap(&model, section, &progress)?);
+        }
         let outcome = tell(input, &model, &scene, arguments);
         let subject = self.subject(&model, &scene)?;
         let mut renderer = self.painter(&model, scene)?;
         let size = self.size();
-        let look = self.look();
         let camera = |direction: Direction| self.camera(&subject, direction, size);
         if let Some([x, y]) = arguments.pick {
             if x >= size[0] || y >= size[1] {
@@ -251,7 +255,6 @@ impl Studio<'_> {
             },
             samples: arguments.samples,
             screen_error_px: arguments.screen_error,
-            section: arguments.section,
             up: self.up(),
             lod: arguments.lod,
             ..standard
@@ -307,15 +310,17 @@ struct Picked<'a> {
 
 fn picked(model: &Model, renderer: &Painter, found: Option<Place>) -> anyhow::Result<String> {
     let Some(place) = found else { return Ok("null".to_owned()) };
-    let instance = &renderer.scene().instances[place.instance];
-    let face = &model.parts[instance.part].faces[place.face];
+    let scene = renderer.scene();
+    let instance = &scene.instances[place.instance];
+    let own = &scene.parts[instance.part];
+    let face = model.parts.get(instance.part).map(|part| &part.faces[place.face]);
     let picked = Picked {
         instance: place.instance,
-        node: &model.nodes[instance.node].name,
-        part: &renderer.scene().parts[instance.part].name,
-        face: face.entity.to_string(),
-        face_name: &face.name,
-        surface: crate::report::surface_kind(face),
+        node: instance.node.map_or("", |node| &model.nodes[node].name),
+        part: &own.name,
+        face: own.faces[place.face].entity.to_string(),
+        face_name: face.map_or("", |face| &face.name),
+        surface: face.map_or("section", crate::report::surface_kind),
         radius_mm: place.radius_mm,
         uv: place.uv.to_array(),
         point_mm: place.point.to_array(),

@@ -31,6 +31,12 @@ const DEEPEST: u32 = 12;
 const WIDEST_TURN_RAD: f64 = 0.8;
 
 impl EdgeCurve {
+    /// A straight one.
+    pub fn line(a: DVec3, b: DVec3) -> Self {
+        let curve = Arc::new(Curve::Line { origin: a, direction: b - a });
+        Self { curve, range: Interval::new(0.0, 1.0) }
+    }
+
     /// Points on it, whose chords are within `off_mm`.
     pub fn sample(&self, off_mm: f64) -> Vec<DVec3> {
         let tolerance = Tolerance { linear_mm: off_mm, angular_rad: WIDEST_TURN_RAD };

@@ -246,7 +246,8 @@ impl Prepared {
                 matrix3: rotation * instance.transform.matrix3,
                 translation: rotation * (instance.transform.translation - camera.eye),
             };
-            let (mesh, part) = (&of.meshes[instance.part], &of.scene.parts[instance.part]);
+            let Some(mesh) = of.meshes.get(instance.part) else { continue };
+            let part = &of.scene.parts[instance.part];
             for ((number, own), face) in (0u32..).zip(&mesh.faces).zip(&part.faces) {
                 if face.is_hidden {
                     continue;

@@ -37,7 +37,8 @@ pub(crate) struct Item {
     color: [f32; 4],
     trim: u32,
     id: u32,
-    unused: [u32; 2],
+    is_cap: u32,
+    unused: u32,
 }
 
 /// A part of the picture, pixels.
@@ -136,8 +137,8 @@ impl Shot<'_> {
         off.log2().floor().clamp(-60.0, 60.0) as i32
     }
 
-    /// The tables of a tile, once everything in `visible` is evaluated.
-    pub fn lists(&self, stage: &Stage, visible: &[Visible], tile: &Tile) -> Lists {
+    /// The tables of a tile, once everything in `visible` is evaluated; `is_solid` takes what is transparent for opaque.
+    pub fn lists(&self, stage: &Stage, visible: &[Visible], tile: &Tile, is_solid: bool) -> Lists {
         let frustum = Frustum::new(self, tile);
         let mut lists = Lists::default();
         let mut indices: [Vec<u32>; 4] = Default::default();
@@ -153,11 +154,17 @@ impl Shot<'_> {
             let color = self.color(instance, face);
             let item = lists.items.len() as u32;
             lists.faces.push((one.instance, one.key.face));
-            lists.items.push(placed.item(staged.origin, color, staged.trim, item + 1));
+            lists.items.push(placed.item(
+                staged.origin,
+                color,
+                staged.trim,
+                item + 1,
+                instance.node.is_none(),
+            ));
             let Some(evaluated) = stage.piece(&one.key) else { continue };
             lists.add_strip(item, &evaluated.edges, Kind::Edge);
             let piece = staged.triangles.as_ref().unwrap_or(evaluated);
-            let is_clear = color[3] < 0.999;
+            let is_clear = !is_solid && color[3] < 0.999;
             if !is_clear {
                 lists.add_strip(item, &piece.border, Kind::Border);
             }
@@ -186,7 +193,7 @@ impl Shot<'_> {
             for (curve, (_, color)) in curves.iter().zip(&self.scene.parts[instance.part].curves) {
                 let color = linear(instance.color.or(*color).unwrap_or(Rgba::opaque(0.1, 0.1, 0.1)));
                 let item = lists.items.len() as u32;
-                lists.items.push(placed.item(curve.origin, color, 0, 0));
+                lists.items.push(placed.item(curve.origin, color, 0, 0, false));
                 lists.add_strip(item, &curve.strip, Kind::Line);
             }
         }
@@ -321,11 +328,11 @@ impl Placed {
         self.matrix.transform_point3(p)
     }
 
-    fn item(&self, origin: DVec3, color: [f32; 4], trim: u32, id: u32) -> Item {
+    fn item(&self, origin: DVec3, color: [f32; 4], trim: u32, id: u32, is_cap: bool) -> Item {
         let m = self.matrix.matrix3.transpose();
         let t = self.point(origin);
         let rows = [m.x_axis.extend(t.x), m.y_axis.extend(t.y), m.z_axis.extend(t.z)];
-        Item { rows: rows.map(|row| row.as_vec4()), color, trim, id, unused: [0; 2] }
+        Item { rows: rows.map(|row| row.as_vec4()), color, trim, id, is_cap: u32::from(is_cap), unused: 0 }
     }
 }
 

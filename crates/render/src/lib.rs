@@ -19,6 +19,7 @@
 mod arena;
 mod border;
 mod camera;
+mod cap;
 mod cpu;
 mod error;
 mod frame;

@@ -30,7 +30,9 @@ impl Names {
             named[index] = above || own.into_iter().flatten().any(|name| self.hold(name));
             stack.extend(node.children.iter().map(|&child| (child, named[index])));
         }
-        let of = |i: &crate::Instance| named[i.node] || self.hold(&scene.parts[i.part].name);
+        let of = |i: &crate::Instance| {
+            i.node.is_some_and(|node| named[node]) || self.hold(&scene.parts[i.part].name)
+        };
         scene.instances.iter().map(of).collect()
     }
 }

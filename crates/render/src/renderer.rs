@@ -214,7 +214,7 @@ impl Renderer {
         let gpu = self.gpu.clone();
         let rgba = read_back(&gpu, &name, tile.size, 4, || {
             let shot = Shot { scene: &self.scene, camera, look, size };
-            let lists = shot.lists(&self.stage, visible, tile);
+            let lists = shot.lists(&self.stage, visible, tile, false);
             self.statistics.triangles += lists.indices.len() / 3;
             let is_fit = |t: &Targets| t.size == tile.size && t.samples == samples;
             if !self.targets.as_ref().is_some_and(is_fit) {
@@ -243,7 +243,7 @@ impl Renderer {
         tile: &Tile,
     ) -> Result<(Vec<[u32; 4]>, Vec<(u32, u32)>), RenderError> {
         let shot = Shot { scene: &self.scene, camera, look, size };
-        let lists = shot.lists(&self.stage, visible, tile);
+        let lists = shot.lists(&self.stage, visible, tile, true);
         let gpu = self.gpu.clone();
         let passes = &mut self.passes;
         let stage = &self.stage;
@@ -267,7 +267,7 @@ impl Renderer {
                 ..Default::default()
             });
             bound.trims(&mut pass);
-            for (k, is_trimmed) in [(0, false), (1, true), (2, false), (3, true)] {
+            for (k, is_trimmed) in [(0, false), (1, true)] {
                 bound.faces(&gpu, &mut pass, passes, Pass::Identify { is_trimmed }, 1, &lists, k);
             }
             bound.strips(

@@ -84,8 +84,8 @@ pub struct Triangles {
 pub struct Instance {
     /// Index of the part.
     pub part: usize,
-    /// Index of the node in the model.
-    pub node: usize,
+    /// Index of the node in the model; none for what a section plane cuts open.
+    pub node: Option<usize>,
     /// From the part's coordinates to the model's.
     pub transform: DAffine3,
     /// The colour of this use.
@@ -126,7 +126,7 @@ impl Scene {
             let color = color.or(node.color);
             let is_shown = is_shown && !node.hidden;
             if let Some(part) = node.part {
-                self.instances.push(Instance { part, node: index, transform, color, is_shown });
+                self.instances.push(Instance { part, node: Some(index), transform, color, is_shown });
             }
             stack.extend(node.children.iter().rev().map(|&child| (child, transform, color, is_shown)));
         }
@@ -230,7 +230,7 @@ impl SceneFace {
         out
     }
 
-    fn outline(&self) -> Vec<DVec3> {
+    pub(crate) fn outline(&self) -> Vec<DVec3> {
         match &self.kind {
             FaceKind::Surface(surface) => surface.outline(),
             FaceKind::Triangles(own) => own.positions.iter().map(|p| *p + own.origin).collect(),
