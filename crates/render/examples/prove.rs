@@ -1,6 +1,6 @@
 //! Proves pictures: for each file and view, how far every pixel is from the exact surface, and whether anything is open.
 //!
-//! `cargo run --release -p trimloop-render --example prove -- FILE... [--zoom N]`
+//! `cargo run --release -p trimloop-render --example prove -- FILE... [--zoom N] [--verbose]`
 
 use trimloop_gpu::Gpu;
 use trimloop_import::ImportOptions;
@@ -11,9 +11,10 @@ const SIZE: [u32; 2] = [1280, 1024];
 
 fn main() -> anyhow::Result<()> {
     let mut arguments = std::env::args().skip(1);
-    let (mut files, mut zoom) = (Vec::new(), 1.0);
+    let (mut files, mut zoom, mut is_verbose) = (Vec::new(), 1.0, false);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
+            "--verbose" => is_verbose = true,
             "--zoom" => zoom = arguments.next().unwrap_or_default().parse()?,
             _ => files.push(argument),
         }
@@ -29,7 +30,14 @@ fn main() -> anyhow::Result<()> {
         model.show_hidden();
         let scene = Scene::new(&model, &Silent)?;
         let outline = scene.outline();
-        let reference = CpuRenderer::with_deflection(&model, Scene::new(&model, &Silent)?, 1e-4, &Silent)?;
+        // Close by, triangles tell nothing.
+        let reference = match zoom > 4.0 {
+            true => None,
+            false => {
+                let copy = Scene::new(&model, &Silent)?;
+                Some(CpuRenderer::with_deflection(&model, copy, 1e-4, &Silent)?)
+            }
+        };
         let mut renderer = Renderer::new(&gpu, scene)?;
         let views = [
             ("iso", Direction::ISO),
@@ -45,8 +53,11 @@ fn main() -> anyhow::Result<()> {
                 camera.projection =
                     Projection::Perspective { fov_y_rad: 2.0 * ((0.5 * fov_y_rad).tan() / zoom).atan() };
             }
-            let proof = prove(&mut renderer, &reference, &camera, SIZE, &Look::default())?;
+            let proof = prove(&mut renderer, reference.as_ref(), &camera, SIZE, &Look::default())?;
             failed += usize::from(!proof.holds());
+            if is_verbose {
+                println!("{}", renderer.statistics());
+            }
             let short: String = file.chars().rev().take(44).collect::<Vec<_>>().into_iter().rev().collect();
             println!(
                 "{short:44} {name:>5} {:>8} {:>9.3} {:>6} {:>6} {:>6} {:>8}{}",

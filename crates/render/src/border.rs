@@ -66,7 +66,8 @@ pub(crate) fn edges_of(part: &Part, face: FaceId, owners: &[Option<FaceId>]) -> 
 pub(crate) fn border_of(face: &SurfaceFace, off_mm: f64) -> Vec<Segment> {
     let mut out = Vec::new();
     let at = |uv: DVec2| face.shape.derivatives(uv).point;
-    for cubic in face.chains.iter().flatten() {
+    let seams = face.seams();
+    for cubic in face.border().chain(&seams) {
         let ends = [(cubic[0], at(cubic[0])), (cubic[3], at(cubic[3]))];
         divide(face, cubic, [0.0, 1.0], ends, off_mm, DEEPEST, &mut out);
     }

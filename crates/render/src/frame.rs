@@ -7,9 +7,11 @@ use rayon::prelude::*;
 use trimloop_brep::Rgba;
 
 use crate::camera::{Camera, Projection};
+use crate::grid::cells;
 use crate::look::{Look, linear};
-use crate::scene::{Instance, Scene, SceneFace};
+use crate::scene::{FaceKind, Instance, Scene, SceneFace};
 use crate::stage::{PieceKey, SEGMENTS, Stage, Strip, VERTICES};
+use crate::surface_face::SurfaceFace;
 
 /// As in `shaders/shared/frame.wgsl`.
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
@@ -83,8 +85,16 @@ pub(crate) struct Lists {
     pub borders: Vec<[u32; 2]>,
     pub edges: Vec<[u32; 2]>,
     pub lines: Vec<[u32; 2]>,
-    /// By an item's id, less one: the instance and the face.
-    pub faces: Vec<(u32, u32)>,
+    /// By an item's id, less one.
+    pub faces: Vec<Numbered>,
+}
+
+/// What an item's id stands for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Numbered {
+    pub instance: u32,
+    pub face: u32,
+    pub tile: u64,
 }
 
 /// Half the width of borders, pixels.
@@ -105,20 +115,13 @@ impl Shot<'_> {
         let per_instance = |(index, instance): (usize, &Instance)| {
             let faces = (0u32..).zip(&self.scene.parts[instance.part].faces);
             let placed = Placed::new(self.camera, &instance.transform);
-            let visible = faces.filter_map(|(number, face)| {
-                if face.is_hidden {
-                    return None;
-                }
-                let center = placed.point(face.sphere.0);
-                let radius = face.sphere.1 * placed.scale;
-                if !frustum.holds(center, radius) {
-                    return None;
-                }
-                let level = self.level(center, radius, placed.scale);
-                let key = PieceKey { part: instance.part as u32, face: number, level };
-                Some(Visible { instance: index as u32, key, center, radius })
-            });
-            visible.collect::<Vec<_>>()
+            let mut visible = Vec::new();
+            for (number, face) in faces.filter(|(_, face)| !face.is_hidden) {
+                let key = PieceKey { part: instance.part as u32, face: number, tile: 0, level: 0 };
+                let seek = Seek { shot: self, frustum: &frustum, placed: &placed, instance: index as u32 };
+                seek.face(face, key, &mut visible);
+            }
+            visible
         };
         let shown: Vec<(usize, &Instance)> =
             self.scene.instances.iter().enumerate().filter(|(_, i)| i.is_shown).collect();
@@ -151,23 +154,22 @@ impl Shot<'_> {
             };
             let face = &self.scene.parts[instance.part].faces[one.key.face as usize];
             let staged = &stage.faces[instance.part][one.key.face as usize];
+            let Some(own) = stage.piece(&one.key) else { continue };
             let color = self.color(instance, face);
             let item = lists.items.len() as u32;
-            lists.faces.push((one.instance, one.key.face));
-            lists.items.push(placed.item(
-                staged.origin,
-                color,
-                staged.trim,
-                item + 1,
-                instance.node.is_none(),
-            ));
-            let Some(evaluated) = stage.piece(&one.key) else { continue };
-            lists.add_strip(item, &evaluated.edges, Kind::Edge);
-            let piece = staged.triangles.as_ref().unwrap_or(evaluated);
+            lists.faces.push(Numbered { instance: one.instance, face: one.key.face, tile: one.key.tile });
+            lists.items.push(placed.item(own.origin, color, own.trim, item + 1, instance.node.is_none()));
             let is_clear = !is_solid && color[3] < 0.999;
-            if !is_clear {
-                lists.add_strip(item, &piece.border, Kind::Border);
-            }
+            let piece = if one.key.tile == 0 {
+                lists.add_strip(item, &own.strip, Kind::Edge);
+                let Some(triangles) = &staged.triangles else { continue };
+                triangles
+            } else {
+                if !is_clear {
+                    lists.add_strip(item, &own.strip, Kind::Border);
+                }
+                own
+            };
             let base = (lists.blocks.len() * VERTICES) as u32;
             let blocks = (0..piece.blocks).map(|k| [item, piece.first_vertex + k * VERTICES as u32]);
             lists.blocks.extend(blocks);
@@ -283,6 +285,57 @@ impl Shot<'_> {
         } else {
             ((-high).max(1e-5 * size) * 0.5, 0.0)
         }
+    }
+}
+
+/// Looks for the parts of a face that are in the picture.
+struct Seek<'a> {
+    shot: &'a Shot<'a>,
+    frustum: &'a Frustum,
+    placed: &'a Placed,
+    instance: u32,
+}
+
+/// Parts of faces that need more cells than this along a direction are halved, this often at most.
+const MOST_CELLS: f64 = 200.0;
+const DEEPEST: u32 = 40;
+
+impl Seek<'_> {
+    /// Adds the face's edges, and the parts of its surface.
+    fn face(&self, face: &SceneFace, key: PieceKey, out: &mut Vec<Visible>) {
+        let Some(whole) = self.sphere(key, face.sphere) else { return };
+        let first = out.len();
+        out.push(whole);
+        if let FaceKind::Surface(surface) = &face.kind {
+            self.tile(surface, PieceKey { tile: 1, ..key }, out);
+        }
+        // Edges are as fine as the finest part.
+        out[first].key.level = out[first..].iter().map(|v| v.key.level).min().unwrap_or(whole.key.level);
+    }
+
+    fn tile(&self, face: &SurfaceFace, key: PieceKey, out: &mut Vec<Visible>) {
+        let Some(visible) = self.sphere(key, face.sphere()) else { return };
+        let [u, v] = cells(&face.bounds, f64::from(visible.key.level).exp2());
+        let depth = 63 - key.tile.leading_zeros();
+        if u.max(v) <= MOST_CELLS || depth >= DEEPEST {
+            out.push(visible);
+            return;
+        }
+        for (k, half) in (0u64..).zip(face.halves()) {
+            if let Some(half) = half {
+                self.tile(half, PieceKey { tile: 2 * key.tile + k, ..key }, out);
+            }
+        }
+    }
+
+    /// What is inside the sphere, if that is in the picture.
+    fn sphere(&self, key: PieceKey, (center, radius): (DVec3, f64)) -> Option<Visible> {
+        let center = self.placed.point(center);
+        let radius = radius * self.placed.scale;
+        let level = self.shot.level(center, radius, self.placed.scale);
+        let key = PieceKey { level, ..key };
+        let is_seen = self.frustum.holds(center, radius);
+        is_seen.then_some(Visible { instance: self.instance, key, center, radius })
     }
 }
 

@@ -23,7 +23,7 @@ pub(crate) struct Triangulated {
 /// Most cells along a direction.
 pub(crate) const MOST_CELLS: usize = 512;
 /// A cell is at most this many times as long as the surface may be off.
-const LONGEST: f64 = 400.0;
+const LONGEST: f64 = 1000.0;
 
 impl Grid {
     /// A grid whose triangles are within `off_mm` of the surface, and whose interpolated parameters belong to points
@@ -58,6 +58,16 @@ impl Grid {
         }
         out
     }
+}
+
+/// Cells along each direction, roughly, for triangles within `off_mm`.
+pub(crate) fn cells(bounds: &Bounds, off_mm: f64) -> [f64; 2] {
+    [0, 1].map(|d| {
+        let own = &bounds.along[d];
+        let spans = own.ends.windows(2).zip(&own.second);
+        let by_bend: f64 = spans.map(|(e, s)| (e[1] - e[0]) * (s / (8.0 * off_mm)).sqrt()).sum();
+        by_bend.max(bounds.lengths[d] / (LONGEST * off_mm))
+    })
 }
 
 /// Lines so that bilinear cells, cut into triangles, are within `off_mm`: an eighth of the second derivatives times the

@@ -8,11 +8,11 @@ use wgpu::util::DeviceExt;
 
 use crate::camera::Camera;
 use crate::error::MOST_PIXELS;
-use crate::frame::{Lists, Shot, Tile, Visible};
+use crate::frame::{Lists, Numbered, Shot, Tile, Visible};
 use crate::look::{Background, EdgeStyle, Look, encode, linear};
 use crate::passes::{Pass, Passes};
 use crate::picture::{Pick, Picture, Seen};
-use crate::scene::Scene;
+use crate::scene::{FaceKind, Scene};
 use crate::stage::{PieceKey, SEGMENTS, Stage};
 use crate::targets::{IdTargets, Target, Targets, depth_attachment, view_of};
 use crate::{Place, RenderError};
@@ -148,7 +148,7 @@ impl Renderer {
             for (k, texel) in texels.into_iter().enumerate() {
                 let (x, y) = (k as u32 % tile.size[0], k as u32 / tile.size[0]);
                 let at = (tile.row + y) as usize * size[0] as usize + (tile.column + x) as usize;
-                out.pixels[at] = pick_of(texel, &faces);
+                out.pixels[at] = pick_of(&self.scene, texel, &faces);
             }
         }
         Ok(out)
@@ -173,7 +173,8 @@ impl Renderer {
         let tile = Tile { column, row, size: [1, 1], jitter: [0.0; 2] };
         let (texels, faces) = self.identify(camera, size, look, &visible, &tile)?;
         let at = glam::DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
-        Ok(pick_of(texels[0], &faces).and_then(|pick| Place::new(&self.scene, &pick, camera.ray(at, size))))
+        Ok(pick_of(&self.scene, texels[0], &faces)
+            .and_then(|pick| Place::new(&self.scene, &pick, camera.ray(at, size))))
     }
 
     /// Evaluates what the picture needs.
@@ -191,7 +192,7 @@ impl Renderer {
         let wanted: Vec<PieceKey> = keys().collect();
         gpu.scoped("evaluate the faces in the picture", || stage.evaluate(gpu, evaluator, scene, wanted))?;
         self.statistics = FrameStatistics {
-            faces: visible.len(),
+            faces: visible.iter().filter(|v| v.key.tile == 0).count(),
             evaluated: self.stage.evaluated,
             evaluate_s: start.elapsed().as_secs_f64(),
             bytes: self.stage.bytes(),
@@ -233,7 +234,6 @@ impl Renderer {
     }
 
     /// What the pixels of a tile show, and the faces that their numbers stand for.
-    #[expect(clippy::type_complexity, reason = "four numbers a pixel, two numbers a face")]
     fn identify(
         &mut self,
         camera: &Camera,
@@ -241,7 +241,7 @@ impl Renderer {
         look: &Look,
         visible: &[Visible],
         tile: &Tile,
-    ) -> Result<(Vec<[u32; 4]>, Vec<(u32, u32)>), RenderError> {
+    ) -> Result<(Vec<[u32; 4]>, Vec<Numbered>), RenderError> {
         let shot = Shot { scene: &self.scene, camera, look, size };
         let lists = shot.lists(&self.stage, visible, tile, true);
         let gpu = self.gpu.clone();
@@ -289,10 +289,15 @@ impl Renderer {
 }
 
 /// What a texel of the pass that identifies means.
-fn pick_of([id, u, v, _]: [u32; 4], faces: &[(u32, u32)]) -> Option<Pick> {
-    let &(instance, face) = faces.get(id.checked_sub(1)? as usize)?;
+fn pick_of(scene: &Scene, [id, u, v, _]: [u32; 4], faces: &[Numbered]) -> Option<Pick> {
+    let Numbered { instance, face, tile } = *faces.get(id.checked_sub(1)? as usize)?;
+    let (instance, face) = (instance as usize, face as usize);
     let share = glam::DVec2::new(f64::from(f32::from_bits(u)), f64::from(f32::from_bits(v)));
-    Some(Pick { instance: instance as usize, face: face as usize, share })
+    let share = match &scene.parts[scene.instances[instance].part].faces[face].kind {
+        FaceKind::Surface(whole) => whole.tile(tile)?.share_of_whole(share),
+        _ => share,
+    };
+    Some(Pick { instance, face, share })
 }
 
 pub(crate) fn check([width, height]: [u32; 2]) -> Result<(), RenderError> {

@@ -31,6 +31,8 @@ pub(crate) struct Stage {
     /// By part: the free curves, relative to their middle.
     pub curves: Vec<Vec<StagedCurve>>,
     pieces: FxHashMap<PieceKey, Piece>,
+    /// Numbers of trim tables by part, face and tile.
+    tables: FxHashMap<(u32, u32, u64), u32>,
     /// Points that were evaluated since the last time that somebody asked.
     pub evaluated: usize,
 }
@@ -40,8 +42,6 @@ pub(crate) struct Stage {
 pub(crate) struct StagedFace {
     /// What positions are relative to.
     pub origin: DVec3,
-    /// Number of its trim table.
-    pub trim: u32,
     /// The triangles of a face that is not evaluated.
     pub triangles: Option<Piece>,
 }
@@ -65,26 +65,32 @@ pub(crate) struct Strip {
 pub(crate) struct PieceKey {
     pub part: u32,
     pub face: u32,
+    /// The part of the face (see `SurfaceFace::tile`); 0 for its edges.
+    pub tile: u64,
     pub level: i32,
 }
 
 /// Blocks of vertices and triangles over them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Piece {
+    /// What positions are relative to.
+    pub origin: DVec3,
+    /// Number of its trim table.
+    pub trim: u32,
     pub first_vertex: u32,
     pub blocks: u32,
     pub triangles: Triangulated,
-    pub border: Strip,
-    pub edges: Strip,
+    /// Its boundary; of edges, the edges.
+    pub strip: Strip,
 }
 
 /// What a piece is made of, before it goes to the device.
 struct Draft<'a> {
     key: PieceKey,
+    origin: DVec3,
     surface: Option<(&'a SurfaceFace, Grid)>,
     triangles: Triangulated,
-    border: Vec<[Vec4; 4]>,
-    edges: Vec<[Vec4; 4]>,
+    strip: Vec<[Vec4; 4]>,
 }
 
 /// The trim tables of all faces, behind each other.
@@ -145,6 +151,7 @@ impl Stage {
             faces: Vec::new(),
             curves: Vec::new(),
             pieces: FxHashMap::default(),
+            tables: FxHashMap::default(),
             evaluated: 0,
         };
         for part in &scene.parts {
@@ -154,7 +161,6 @@ impl Stage {
                 match &face.kind {
                     FaceKind::Surface(surface) => {
                         staged.origin = surface.shape.origin();
-                        staged.trim = stage.trims.add(gpu, &surface.table)?;
                     }
                     FaceKind::Triangles(triangles) => {
                         staged.origin = triangles.origin;
@@ -218,12 +224,12 @@ impl Stage {
         mut wanted: Vec<PieceKey>,
     ) -> Result<(), GpuError> {
         wanted.retain(|key| !self.pieces.contains_key(key));
-        wanted.sort_unstable_by_key(|key| (key.part, key.face, key.level));
+        wanted.sort_unstable_by_key(|key| (key.part, key.face, key.tile, key.level));
         wanted.dedup();
         let staged = &self.faces;
         let drafts: Vec<Draft<'_>> = wanted
             .into_par_iter()
-            .map(|key| {
+            .filter_map(|key| {
                 let face = &scene.parts[key.part as usize].faces[key.face as usize];
                 Draft::new(key, face, staged[key.part as usize][key.face as usize].origin)
             })
@@ -269,12 +275,21 @@ impl Stage {
             gpu.queue().submit([encoder.finish()]);
         }
         for (draft, first) in drafts.into_iter().zip(firsts) {
-            let blocks = draft.surface.map_or(0, |(_, grid)| grid.len().div_ceil(VERTICES)) as u32;
-            let border = self.add_strip(gpu, &draft.border)?;
-            let edges = self.add_strip(gpu, &draft.edges)?;
-            let triangles = draft.triangles;
-            self.pieces
-                .insert(draft.key, Piece { first_vertex: first as u32, blocks, triangles, border, edges });
+            let strip = self.add_strip(gpu, &draft.strip)?;
+            let Draft { key, origin, triangles, surface, .. } = draft;
+            let blocks = surface.as_ref().map_or(0, |(_, grid)| grid.len().div_ceil(VERTICES)) as u32;
+            let tile = (key.part, key.face, key.tile);
+            let trim = match (&surface, self.tables.get(&tile)) {
+                (None, _) => 0,
+                (Some(_), Some(table)) => *table,
+                (Some((face, _)), None) => {
+                    let table = self.trims.add(gpu, &face.table)?;
+                    self.tables.insert(tile, table);
+                    table
+                }
+            };
+            let piece = Piece { origin, trim, first_vertex: first as u32, blocks, triangles, strip };
+            self.pieces.insert(key, piece);
         }
         Ok(())
     }
@@ -285,34 +300,28 @@ impl Stage {
         for key in unused {
             if let Some(piece) = self.pieces.remove(&key) {
                 self.vertices.give_back(piece.first_vertex as usize, piece.blocks as usize * VERTICES);
-                for strip in [piece.border, piece.edges] {
-                    self.segments.give_back(strip.first as usize, strip.blocks as usize * SEGMENTS);
-                }
+                self.segments.give_back(piece.strip.first as usize, piece.strip.blocks as usize * SEGMENTS);
             }
         }
     }
 }
 
 impl<'a> Draft<'a> {
-    fn new(key: PieceKey, face: &'a SceneFace, origin: DVec3) -> Self {
+    fn new(key: PieceKey, face: &'a SceneFace, origin: DVec3) -> Option<Self> {
         let off_mm = f64::from(key.level).exp2();
-        let mut out = Self {
-            key,
-            surface: None,
-            triangles: Triangulated::default(),
-            border: Vec::new(),
-            edges: Vec::new(),
-        };
-        if let FaceKind::Surface(surface) = &face.kind {
-            let grid = Grid::new(surface, off_mm);
-            out.triangles = grid.triangulate(surface);
-            out.border = packed(&border_of(surface, STRIPS * off_mm), origin, Some(surface));
-            out.surface = Some((&**surface, grid));
+        if key.tile == 0 {
+            let edge = |edge: &EdgeCurve| chords(&edge.sample(STRIPS * off_mm));
+            let edges: Vec<Segment> = face.edges.iter().flat_map(edge).collect();
+            let strip = packed(&edges, origin, None);
+            return Some(Self { key, origin, surface: None, triangles: Triangulated::default(), strip });
         }
-        let edge = |edge: &EdgeCurve| chords(&edge.sample(STRIPS * off_mm));
-        let edges: Vec<Segment> = face.edges.iter().flat_map(edge).collect();
-        out.edges = packed(&edges, origin, None);
-        out
+        let FaceKind::Surface(whole) = &face.kind else { return None };
+        let surface = whole.tile(key.tile)?;
+        let origin = surface.shape.origin();
+        let grid = Grid::new(surface, off_mm);
+        let triangles = grid.triangulate(surface);
+        let strip = packed(&border_of(surface, STRIPS * off_mm), origin, Some(surface));
+        Some(Self { key, origin, surface: Some((surface, grid)), triangles, strip })
     }
 }
 

@@ -1,26 +1,33 @@
 //! A face that is evaluated on the device: its shape, and what its level of detail depends on.
 
+use std::sync::{Arc, OnceLock};
+
 use glam::{DVec2, DVec3};
-use trimloop_geom::{Aabb, Direction, Surface};
-use trimloop_gpu::{FaceShape, Places, Shape, TrimTable};
+use trimloop_geom::{Aabb, Direction, Interval, Surface};
+use trimloop_gpu::{Cover, FaceShape, Places, Shape, TrimTable};
 use trimloop_trim::TrimDomain;
 use trimloop_trim::curves::Cubic;
+
+use crate::grid::cells;
 
 /// A face that is evaluated on the device.
 #[derive(Debug)]
 pub struct SurfaceFace {
     /// Its surface over the box of its trim loops.
     pub shape: Shape,
-    /// Its trim loops as polygons.
-    pub domain: TrimDomain,
-    /// Its trim loops as cubics, as exact as single precision can use.
+    /// The whole face's trim loops as polygons.
+    pub domain: Arc<TrimDomain>,
+    /// Its trim loops as cubics, as exact as single precision can use. Of a part of a face, what lies outside of the part
+    /// is moved closer and straight.
     pub chains: Vec<Vec<Cubic>>,
     /// Its trim loops as the device reads them.
     pub table: TrimTable,
-    /// Where, as shares of the domain along u and along v, the surface has kinks: grids have lines there.
     pub(crate) bounds: Bounds,
     box_mm: Aabb,
     is_whole: bool,
+    /// The corners of its domain, as shares of the whole face's.
+    pub(crate) window: [DVec2; 2],
+    halves: OnceLock<[Option<Box<SurfaceFace>>; 2]>,
 }
 
 /// How large, and how far from straight, a surface is. Millimetres; derivatives are with respect to shares of the domain.
@@ -56,11 +63,98 @@ const KINK_RAD: f64 = 1e-3;
 impl SurfaceFace {
     pub(crate) fn new(face: FaceShape, chains: Vec<Vec<Cubic>>, table: TrimTable) -> Option<Self> {
         let FaceShape { shape, domain, .. } = face;
+        let is_whole = is_whole(&shape, &chains);
+        Self::of(shape, Arc::new(domain), chains, table, is_whole, [DVec2::ZERO, DVec2::ONE])
+    }
+
+    fn of(
+        shape: Shape,
+        domain: Arc<TrimDomain>,
+        chains: Vec<Vec<Cubic>>,
+        table: TrimTable,
+        is_whole: bool,
+        window: [DVec2; 2],
+    ) -> Option<Self> {
         let lines = [Direction::U, Direction::V].map(|d| breaks(&shape, d));
         let (bounds, box_mm) = Bounds::of(&shape, &lines);
         let is_finite = bounds.is_finite() && box_mm.diagonal().is_finite();
-        let is_whole = is_whole(&shape, &chains);
-        is_finite.then(|| Self { shape, domain, chains, table, bounds, box_mm, is_whole })
+        let halves = OnceLock::new();
+        is_finite.then(|| Self { shape, domain, chains, table, bounds, box_mm, is_whole, window, halves })
+    }
+
+    /// Its two halves, as faces of their own with their own origins; `None` for one that holds nothing of the face.
+    pub(crate) fn halves(&self) -> &[Option<Box<Self>>; 2] {
+        self.halves.get_or_init(|| {
+            let [u, v] = cells(&self.bounds, NOMINAL * self.shape.size());
+            let d = usize::from(v > u);
+            [0, 1].map(|k| self.half(d, k).map(Box::new))
+        })
+    }
+
+    fn half(&self, d: usize, k: usize) -> Option<Self> {
+        let mut domain = self.shape.domain();
+        let middle = domain[d].at(0.5);
+        domain[d] = if k == 0 {
+            Interval::new(domain[d].start, middle)
+        } else {
+            Interval::new(middle, domain[d].end)
+        };
+        let mut window = self.window;
+        window[1 - k][d] = 0.5 * (self.window[0][d] + self.window[1][d]);
+        let [u, v] = domain;
+        let (low, high) = (DVec2::new(u.start, v.start), DVec2::new(u.end, v.end));
+        let clip = Clip { low, extent: high - low };
+        let chains: Vec<Vec<Cubic>> = self.chains.iter().map(|chain| clip.chain(chain)).collect();
+        let table = TrimTable::within(&chains, TABLE_CELLS, low, high).ok()?;
+        let is_whole = self.is_whole
+            || match table.cover(low, high) {
+                Cover::None => return None,
+                cover => cover == Cover::Whole,
+            };
+        let shape = Shape::surface(self.surface()?, domain)?;
+        if !shape.is_nurbs() {
+            return None;
+        }
+        Self::of(shape, self.domain.clone(), chains, table, is_whole, window)
+    }
+
+    /// The part of the face that a path leads to: 1 is the whole, then a bit for each half.
+    pub(crate) fn tile(&self, path: u64) -> Option<&Self> {
+        let depth = 63 - path.max(1).leading_zeros();
+        (0..depth).rev().try_fold(self, |face, bit| face.halves()[(path >> bit & 1) as usize].as_deref())
+    }
+
+    /// Shares of the whole face's domain.
+    pub(crate) fn share_of_whole(&self, share: DVec2) -> DVec2 {
+        self.window[0] + (self.window[1] - self.window[0]) * share
+    }
+
+    /// The cubics of the boundary that lie in the domain.
+    pub(crate) fn border(&self) -> impl Iterator<Item = &Cubic> {
+        let [u, v] = self.shape.domain();
+        let (low, extent) = (DVec2::new(u.start, v.start), DVec2::new(u.length(), v.length()));
+        self.chains.iter().flatten().filter(move |cubic| {
+            let unit = cubic.map(|p| (p - low) / extent);
+            let least = unit.iter().fold(DVec2::INFINITY, |a, b| a.min(*b));
+            let most = unit.iter().fold(DVec2::NEG_INFINITY, |a, b| a.max(*b));
+            least.cmple(DVec2::splat(1.0 + 1e-9)).all() && most.cmpge(DVec2::splat(-1e-9)).all()
+        })
+    }
+
+    /// The sides that this part of a face shares with others, as far as they are inside the face.
+    pub(crate) fn seams(&self) -> Vec<Cubic> {
+        if self.window == [DVec2::ZERO, DVec2::ONE] {
+            return Vec::new();
+        }
+        let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+        let pieces = (0..4).flat_map(|k| {
+            let (a, b) = (corners[k], corners[(k + 1) % 4]);
+            let at = move |n: u32| a.lerp(b, f64::from(n) / f64::from(SEAM_PIECES));
+            (0..SEAM_PIECES).map(move |n| [at(n), at(n + 1)])
+        });
+        let is_inside = |[a, b]: &[DVec2; 2]| self.is_whole || self.table.cover(*a, *b) == Cover::Whole;
+        let inside = pieces.map(|ends| ends.map(|share| self.parameters(share))).filter(is_inside);
+        inside.map(|[a, b]| [a, a.lerp(b, 1.0 / 3.0), a.lerp(b, 2.0 / 3.0), b]).collect()
     }
 
     /// A sphere around it.
@@ -92,6 +186,50 @@ impl SurfaceFace {
         let corners = self.domain.loops.iter().flat_map(|l| l.uvs());
         let points = inside.chain(corners).map(|uv| self.shape.derivatives(uv).point);
         points.filter(|p| p.is_finite()).collect()
+    }
+}
+
+/// The share of its size at which a face's directions are compared, to halve the one that needs more cells.
+const NOMINAL: f64 = 1e-6;
+/// Cells of the trim tables of parts of faces; pieces of the sides between them.
+const TABLE_CELLS: u32 = 128;
+const SEAM_PIECES: u32 = 64;
+
+/// A part of the parameter plane that curves are cut to.
+struct Clip {
+    low: DVec2,
+    extent: DVec2,
+}
+
+impl Clip {
+    /// Pieces of a chain: as it is inside, straight outside, nowhere farther than the part is wide.
+    fn chain(&self, chain: &[Cubic]) -> Vec<Cubic> {
+        let mut out = Vec::with_capacity(chain.len());
+        chain.iter().for_each(|cubic| self.cut(cubic, 60, &mut out));
+        out
+    }
+
+    fn cut(&self, cubic: &Cubic, depth: u32, out: &mut Vec<Cubic>) {
+        let unit = cubic.map(|p| (p - self.low) / self.extent);
+        let least = unit.iter().fold(DVec2::INFINITY, |a, b| a.min(*b));
+        let most = unit.iter().fold(DVec2::NEG_INFINITY, |a, b| a.max(*b));
+        let margin = DVec2::splat(0.05);
+        if least.cmpgt(DVec2::ONE + margin).any() || most.cmplt(-margin).any() {
+            let [a, b] = [unit[0], unit[3]].map(|p| p.clamp(DVec2::splat(-1.0), DVec2::splat(2.0)));
+            let [a, b] = [a, b].map(|p| self.low + self.extent * p);
+            if a != b {
+                out.push([a, a.lerp(b, 1.0 / 3.0), a.lerp(b, 2.0 / 3.0), b]);
+            }
+        } else if depth > 0 && (most - least).max_element() > 4.0 {
+            let [a, b, c, d] = *cubic;
+            let (p, q, r) = (a.lerp(b, 0.5), b.lerp(c, 0.5), c.lerp(d, 0.5));
+            let (s, t) = (p.lerp(q, 0.5), q.lerp(r, 0.5));
+            let middle = s.lerp(t, 0.5);
+            self.cut(&[a, p, s, middle], depth - 1, out);
+            self.cut(&[middle, t, r, d], depth - 1, out);
+        } else {
+            out.push(*cubic);
+        }
     }
 }
 
