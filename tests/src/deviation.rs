@@ -70,30 +70,35 @@ fn of_part(part: &Part, mesh: &PartMesh, density: usize) -> Vec<(&'static str, D
 }
 
 fn of_face(surface: &Surface, face_mesh: &FaceMesh, mesh: &PartMesh, density: usize) -> Deviation {
-    let mut worst = Deviation { faces: 1, ..Deviation::default() };
     let corners = |triangle: &[u32; 3]| triangle.map(|i| face_mesh.vertices[i as usize]);
-    let Some(first) = face_mesh.triangles.first().map(corners) else { return worst };
+    let Some(first) = face_mesh.triangles.first().map(corners) else {
+        return Deviation { faces: 1, ..Deviation::default() };
+    };
     let exact = Exact::new(surface, first, mesh);
-    for triangle in &face_mesh.triangles {
-        let corners = corners(triangle);
-        let points = corners.map(|v| mesh.positions[v.position as usize]);
-        let facing = facing(points);
-        let centre = corners.iter().map(|v| v.uv).sum::<DVec2>() / 3.0;
-        for weights in samples(density) {
-            let blend = |v: [DVec3; 3]| v[0] * weights.x + v[1] * weights.y + v[2] * weights.z;
-            let uv = corners[0].uv * weights.x + corners[1].uv * weights.y + corners[2].uv * weights.z;
-            let foot = exact.foot(blend(points), uv);
-            worst.samples += 1;
-            worst.distance_share = worst.distance_share.max(foot.distance / mesh.linear_deflection_mm);
-            // On a crease there are two normals: that of the triangle's own side is meant.
-            let Some(normal) = exact.normal(foot.uv.lerp(centre, 1e-4)) else { continue };
-            let shading = blend(corners.map(|v| v.normal)).angle_between(normal);
-            let at_corner = weights.max_element() > 1.0 - 1e-9;
-            let angle = if at_corner { &mut worst.vertex_normal_rad } else { &mut worst.shading_normal_rad };
-            *angle = angle.max(shading);
-            if let Some(facing) = facing {
-                worst.triangle_normal_rad = worst.triangle_normal_rad.max(facing.angle_between(normal));
-            }
+    let of = |triangle| of_triangle(&exact, corners(triangle), mesh, density);
+    let all = face_mesh.triangles.par_iter().map(of).reduce(Deviation::default, Deviation::max);
+    Deviation { faces: 1, ..all }
+}
+
+fn of_triangle(exact: &Exact<'_>, corners: [FaceVertex; 3], mesh: &PartMesh, density: usize) -> Deviation {
+    let mut worst = Deviation::default();
+    let points = corners.map(|v| mesh.positions[v.position as usize]);
+    let facing = facing(points);
+    let centre = corners.iter().map(|v| v.uv).sum::<DVec2>() / 3.0;
+    for weights in samples(density) {
+        let blend = |v: [DVec3; 3]| v[0] * weights.x + v[1] * weights.y + v[2] * weights.z;
+        let uv = corners[0].uv * weights.x + corners[1].uv * weights.y + corners[2].uv * weights.z;
+        let foot = exact.foot(blend(points), uv);
+        worst.samples += 1;
+        worst.distance_share = worst.distance_share.max(foot.distance / mesh.linear_deflection_mm);
+        // On a crease there are two normals: that of the triangle's own side is meant.
+        let Some(normal) = exact.normal(foot.uv.lerp(centre, 1e-4)) else { continue };
+        let shading = blend(corners.map(|v| v.normal)).angle_between(normal);
+        let at_corner = weights.max_element() > 1.0 - 1e-9;
+        let angle = if at_corner { &mut worst.vertex_normal_rad } else { &mut worst.shading_normal_rad };
+        *angle = angle.max(shading);
+        if let Some(facing) = facing {
+            worst.triangle_normal_rad = worst.triangle_normal_rad.max(facing.angle_between(normal));
         }
     }
     worst

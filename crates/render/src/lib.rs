@@ -46,7 +46,7 @@ pub use lod::Lod;
 pub use look::{Background, EdgeStyle, Look, Section};
 pub use names::Names;
 pub use painter::Painter;
-pub use picture::{Pick, Picture, Seen};
+pub use picture::{Difference, Pick, Picture, Seen};
 pub use place::Place;
 pub use proof::{Proof, prove};
 pub use renderer::{FrameStatistics, Renderer};

@@ -37,6 +37,18 @@ pub struct Seen {
     pub pixels: Vec<Option<Pick>>,
 }
 
+/// How much two pictures differ: 0 for not at all, 1 for black and white.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    /// Over the whole picture.
+    pub mean: f64,
+    /// Over the square of 16 x 16 pixels where it is largest.
+    pub worst_region: f64,
+}
+
+/// Pixels along the side of a region.
+const REGION: u32 = 16;
+
 impl Picture {
     /// The picture as a PNG file.
     ///
@@ -59,6 +71,44 @@ impl Picture {
         }
         writer.finish().map_err(failed)?;
         Ok(out)
+    }
+
+    /// A picture from a PNG file with eight bits a channel, with or without opacity.
+    ///
+    /// # Errors
+    /// Where it is none.
+    pub fn from_png(bytes: &[u8]) -> Result<Self, RenderError> {
+        let failed = |error: png::DecodingError| RenderError::Encode(error.to_string());
+        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+        decoder
+            .set_transformations(png::Transformations::normalize_to_color8() | png::Transformations::ALPHA);
+        let mut reader = decoder.read_info().map_err(failed)?;
+        let size = reader.output_buffer_size();
+        let mut rgba = vec![0; size.ok_or_else(|| RenderError::Encode("it is too large".to_owned()))?];
+        let info = reader.next_frame(&mut rgba).map_err(failed)?;
+        if info.color_type != png::ColorType::Rgba {
+            return Err(RenderError::Encode("it has no colours".to_owned()));
+        }
+        Ok(Self { width: info.width, height: info.height, rgba })
+    }
+
+    /// How much two pictures of the same size differ to the eye; `None` where the sizes differ.
+    pub fn difference(&self, other: &Self) -> Option<Difference> {
+        if [self.width, self.height] != [other.width, other.height] {
+            return None;
+        }
+        let columns = self.width.div_ceil(REGION);
+        let mut regions = vec![(0.0, 0.0); (columns * self.height.div_ceil(REGION)) as usize];
+        let pixels = self.rgba.chunks_exact(4).zip(other.rgba.chunks_exact(4));
+        for (k, (a, b)) in (0u32..).zip(pixels) {
+            let (x, y) = (k % self.width, k / self.width);
+            let own = (0..4).map(|c| f64::from(a[c]) - f64::from(b[c])).map(|d| d * d).sum::<f64>();
+            let region = &mut regions[(y / REGION * columns + x / REGION) as usize];
+            *region = (region.0 + (own / 4.0).sqrt() / 255.0, region.1 + 1.0);
+        }
+        let mean = regions.iter().map(|r| r.0).sum::<f64>() / f64::from((self.width * self.height).max(1));
+        let worst_region = regions.iter().map(|r| r.0 / r.1).fold(0.0, f64::max);
+        Some(Difference { mean, worst_region })
     }
 
     /// The pixel in a column of a row.

@@ -1,0 +1,92 @@
+//! Every pixel shows what is within half a pixel of the exact model, and nothing is open.
+
+use trimloop_mesh::Silent;
+use trimloop_render::{CpuRenderer, Direction, Look, Projection, prove};
+
+use crate::{camera, model, renderer, scene};
+
+const SIZE: [u32; 2] = [1280, 1024];
+const VIEWS: [Direction; 3] = [
+    Direction::ISO,
+    Direction { azimuth_deg: 10.0, elevation_deg: 5.0 },
+    Direction { azimuth_deg: 200.0, elevation_deg: -60.0 },
+];
+
+const MODELS: [&str; 34] = [
+    "cadquery/assembly_nested.step",
+    "cadquery/assembly_mirrored.step",
+    "cadquery/assembly_transparent.step",
+    "cadquery/bare_bracket.step",
+    "cadquery/bare_ellipsoid.step",
+    "cadquery/bezier_rational_octant.step",
+    "cadquery/bottle.step",
+    "cadquery/bspline_collapsed_side.step",
+    "cadquery/bspline_creased.step",
+    "cadquery/bspline_degree_1.step",
+    "cadquery/bspline_degree_9.step",
+    "cadquery/bspline_periodic.step",
+    "cadquery/bspline_rational.step",
+    "cadquery/bspline_uneven_knots.step",
+    "cadquery/cone_cut_in_hyperbola.step",
+    "cadquery/cone_cut_through_apex.step",
+    "cadquery/cylinder_with_slot_through_seam.step",
+    "cadquery/far_from_origin.step",
+    "cadquery/fillet_variable.step",
+    "cadquery/gear_blank.step",
+    "cadquery/hollow_ball.step",
+    "cadquery/loft_to_point.step",
+    "cadquery/micrometre.step",
+    "cadquery/paraboloid.step",
+    "cadquery/pipe_tee.step",
+    "cadquery/plate_perforated.step",
+    "cadquery/sheet_single_face.step",
+    "cadquery/sphere_with_hole_through_poles.step",
+    "cadquery/spring_conical.step",
+    "cadquery/steinmetz.step",
+    "cadquery/thread.step",
+    "cadquery/torus_lemon.step",
+    "cadquery/trimmed_surface.step",
+    "freecad/thread.step",
+];
+
+/// One part of the models, so that the parts run beside each other.
+fn models_hold(first: usize) {
+    let mut wrong = Vec::new();
+    for name in MODELS.iter().skip(first).step_by(2) {
+        let Some(mut renderer) = renderer(name) else { return };
+        let model = model(name);
+        let reference = CpuRenderer::with_deflection(&model, scene(&model), 1e-4, &Silent).expect("meshed");
+        for (k, direction) in VIEWS.into_iter().enumerate() {
+            let camera = camera(renderer.scene(), direction, SIZE);
+            let proof =
+                prove(&mut renderer, Some(&reference), &camera, SIZE, &Look::default()).expect("a picture");
+            if !proof.holds() || proof.unproved > 0 || proof.covered == 0 {
+                wrong.push(format!("{name} from {k}: {proof:?}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_first_half_of_the_models() {
+    models_hold(0);
+}
+
+#[test]
+fn the_second_half_of_the_models() {
+    models_hold(1);
+}
+
+#[test]
+fn close_to_a_thousandth_of_a_face() {
+    for name in ["cadquery/bare_bracket.step", "cadquery/spline_hill.step", "cadquery/steinmetz.step"] {
+        let Some(mut renderer) = renderer(name) else { return };
+        for zoom in [30.0, 1000.0, 30_000.0] {
+            let mut camera = camera(renderer.scene(), Direction::ISO, SIZE);
+            camera.projection = Projection::Perspective { fov_y_rad: 2.0 * ((0.25f64).tan() / zoom).atan() };
+            let proof = prove(&mut renderer, None, &camera, SIZE, &Look::default()).expect("a picture");
+            assert!(proof.holds() && proof.covered > 0, "{name} at {zoom}: {proof:?}");
+        }
+    }
+}
