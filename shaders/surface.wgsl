@@ -1,8 +1,11 @@
 // Faces: vertices that the evaluators left on the device, trimmed exactly in each fragment.
 
-// 1 where trim curves pass through what is drawn.
-override IS_TRIMMED: u32 = 1u;
+// How cells are trimmed: 0 not at all, 1 by curves, 2 by masks.
+override TRIM: u32 = 1u;
 override SAMPLES: u32 = 4u;
+
+// Trim textures, four texels in a word, row by row.
+@group(0) @binding(5) var<storage, read> masks: array<u32>;
 
 struct Corner {
     @builtin(position) clip: vec4<f32>,
@@ -28,13 +31,25 @@ fn vertex(@builtin(vertex_index) index: u32) -> Corner {
     return out;
 }
 
+// Whether the face holds a place, by whatever trims it.
+fn holds(item: u32, uv: vec2<f32>) -> bool {
+    if TRIM == 1u {
+        return is_inside(items[item].trim, uv);
+    }
+    let size = vec2<u32>(items[item].mask & 0xffffu, items[item].mask >> 16u);
+    let texel = min(vec2<u32>(clamp(uv, vec2<f32>(), vec2<f32>(1.0)) * vec2<f32>(size)), size - 1u);
+    let at = texel.y * size.x + texel.x;
+    let word = masks[items[item].trim + at / 4u];
+    return ((word >> (8u * (at % 4u))) & 0xffu) > 127u;
+}
+
 // Which samples of the pixel are inside the face. `uv` may change by `across` and `down` from pixel to pixel.
-fn coverage(trim: u32, uv: vec2<f32>, across: vec2<f32>, down: vec2<f32>) -> u32 {
-    if IS_TRIMMED == 0u {
+fn coverage(item: u32, uv: vec2<f32>, across: vec2<f32>, down: vec2<f32>) -> u32 {
+    if TRIM == 0u {
         return 0xffffffffu;
     }
     if SAMPLES == 1u {
-        return select(0u, 1u, is_inside(trim, uv));
+        return select(0u, 1u, holds(item, uv));
     }
     // The places that WebGPU gives to four samples.
     var places = array<vec2<f32>, 4>(
@@ -45,7 +60,7 @@ fn coverage(trim: u32, uv: vec2<f32>, across: vec2<f32>, down: vec2<f32>) -> u32
     );
     var mask = 0u;
     for (var k = 0u; k < 4u; k++) {
-        if is_inside(trim, uv + across * places[k].x + down * places[k].y) {
+        if holds(item, uv + across * places[k].x + down * places[k].y) {
             mask |= 1u << k;
         }
     }
@@ -63,7 +78,7 @@ fn paint(in: Corner) -> Painted {
     let down = dpdy(in.uv);
     let item = items[in.item];
     var out: Painted;
-    out.mask = coverage(item.trim, in.uv, across, down);
+    out.mask = coverage(in.item, in.uv, across, down);
     if out.mask == 0u || is_cut_away(in.item, in.place) {
         discard;
     }
@@ -84,7 +99,7 @@ fn veil(in: Corner) -> Veil {
     let down = dpdy(in.uv);
     let item = items[in.item];
     var out: Veil;
-    out.mask = coverage(item.trim, in.uv, across, down);
+    out.mask = coverage(in.item, in.uv, across, down);
     if out.mask == 0u || is_cut_away(in.item, in.place) {
         discard;
     }
@@ -100,7 +115,7 @@ fn veil(in: Corner) -> Veil {
 @fragment
 fn identify(in: Corner) -> @location(0) vec4<u32> {
     let item = items[in.item];
-    if IS_TRIMMED == 1u && !is_inside(item.trim, in.uv) {
+    if TRIM != 0u && !holds(in.item, in.uv) {
         discard;
     }
     if is_cut_away(in.item, in.place) {

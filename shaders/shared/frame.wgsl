@@ -29,12 +29,14 @@ struct Item {
     rows: array<vec4<f32>, 3>,
     // Linear, with opacity.
     color: vec4<f32>,
+    // Number of its trim table, or first word of its mask.
     trim: u32,
     // What picking returns, from 1 on.
     id: u32,
     // 1 where the section plane cuts nothing away: it closes what that cuts open.
     is_cap: u32,
-    unused: u32,
+    // Texels of its mask along u, and along v in the upper half.
+    mask: u32,
 }
 
 @group(1) @binding(0) var<uniform> view: View;

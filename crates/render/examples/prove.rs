@@ -1,19 +1,24 @@
 //! Proves pictures: for each file and view, how far every pixel is from the exact surface, and whether anything is open.
 //!
-//! `cargo run --release -p trimloop-render --example prove -- FILE... [--zoom N] [--verbose]`
+//! `cargo run --release -p trimloop-render --example prove -- FILE... [--zoom N] [--lod NAME] [--verbose]`
 
 use trimloop_gpu::Gpu;
 use trimloop_import::ImportOptions;
 use trimloop_mesh::Silent;
-use trimloop_render::{Camera, CpuRenderer, Direction, Look, Projection, Renderer, Scene, Up, prove};
+use trimloop_render::{Camera, CpuRenderer, Direction, Lod, Look, Projection, Renderer, Scene, Up, prove};
 
 const SIZE: [u32; 2] = [1280, 1024];
 
 fn main() -> anyhow::Result<()> {
     let mut arguments = std::env::args().skip(1);
+    let mut lod = Lod::Adaptive;
     let (mut files, mut zoom, mut is_verbose) = (Vec::new(), 1.0, false);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
+            "--lod" => {
+                let name = arguments.next().unwrap_or_default();
+                lod = Lod::named(&name).ok_or_else(|| anyhow::anyhow!("no strategy is called `{name}`"))?;
+            }
             "--verbose" => is_verbose = true,
             "--zoom" => zoom = arguments.next().unwrap_or_default().parse()?,
             _ => files.push(argument),
@@ -53,7 +58,8 @@ fn main() -> anyhow::Result<()> {
                 camera.projection =
                     Projection::Perspective { fov_y_rad: 2.0 * ((0.5 * fov_y_rad).tan() / zoom).atan() };
             }
-            let proof = prove(&mut renderer, reference.as_ref(), &camera, SIZE, &Look::default())?;
+            let proof =
+                prove(&mut renderer, reference.as_ref(), &camera, SIZE, &Look { lod, ..Look::default() })?;
             failed += usize::from(!proof.holds());
             if is_verbose {
                 println!("{}", renderer.statistics());

@@ -8,6 +8,7 @@ use trimloop_brep::Rgba;
 
 use crate::camera::{Camera, Projection};
 use crate::grid::cells;
+use crate::lod::Lod;
 use crate::look::{Look, linear};
 use crate::scene::{FaceKind, Instance, Scene, SceneFace};
 use crate::stage::{PieceKey, SEGMENTS, Stage, Strip, VERTICES};
@@ -40,7 +41,7 @@ pub(crate) struct Item {
     trim: u32,
     id: u32,
     is_cap: u32,
-    unused: u32,
+    mask: u32,
 }
 
 /// A part of the picture, pixels.
@@ -117,7 +118,13 @@ impl Shot<'_> {
             let placed = Placed::new(self.camera, &instance.transform);
             let mut visible = Vec::new();
             for (number, face) in faces.filter(|(_, face)| !face.is_hidden) {
-                let key = PieceKey { part: instance.part as u32, face: number, tile: 0, level: 0 };
+                let key = PieceKey {
+                    part: instance.part as u32,
+                    face: number,
+                    tile: 0,
+                    level: 0,
+                    lod: self.look.lod,
+                };
                 let seek = Seek { shot: self, frustum: &frustum, placed: &placed, instance: index as u32 };
                 seek.face(face, key, &mut visible);
             }
@@ -158,7 +165,8 @@ impl Shot<'_> {
             let color = self.color(instance, face);
             let item = lists.items.len() as u32;
             lists.faces.push(Numbered { instance: one.instance, face: one.key.face, tile: one.key.tile });
-            lists.items.push(placed.item(own.origin, color, own.trim, item + 1, instance.node.is_none()));
+            let placed = placed.item(own.origin, color, own.trim, item + 1, instance.node.is_none());
+            lists.items.push(Item { mask: own.mask, ..placed });
             let is_clear = !is_solid && color[3] < 0.999;
             let piece = if one.key.tile == 0 {
                 lists.add_strip(item, &own.strip, Kind::Edge);
@@ -317,7 +325,8 @@ impl Seek<'_> {
         let Some(visible) = self.sphere(key, face.sphere()) else { return };
         let [u, v] = cells(&face.bounds, f64::from(visible.key.level).exp2());
         let depth = 63 - key.tile.leading_zeros();
-        if u.max(v) <= MOST_CELLS || depth >= DEEPEST {
+        let is_fine = u.max(v) <= MOST_CELLS || depth >= DEEPEST;
+        if is_fine || key.lod == Lod::Grid {
             out.push(visible);
             return;
         }
@@ -385,7 +394,7 @@ impl Placed {
         let m = self.matrix.matrix3.transpose();
         let t = self.point(origin);
         let rows = [m.x_axis.extend(t.x), m.y_axis.extend(t.y), m.z_axis.extend(t.z)];
-        Item { rows: rows.map(|row| row.as_vec4()), color, trim, id, is_cap: u32::from(is_cap), unused: 0 }
+        Item { rows: rows.map(|row| row.as_vec4()), color, trim, id, is_cap: u32::from(is_cap), mask: 0 }
     }
 }
 

@@ -32,6 +32,19 @@ impl Grid {
         Self { lines: lines(&face.bounds, off_mm) }
     }
 
+    /// An even grid by size, distance and bend (Krishnamurthy et al. 2009, section 6.1), which knows nothing of spans.
+    pub fn even(face: &SurfaceFace, off_mm: f64) -> Self {
+        let bounds = &face.bounds;
+        let lines = [0, 1].map(|d| {
+            let most = bounds.along[d].second.iter().copied().fold(0.0, f64::max);
+            let by_length = bounds.lengths[d] / (LONGEST * off_mm);
+            let cells = (most / (8.0 * off_mm)).sqrt().max(by_length).ceil();
+            let cells = (cells as usize).clamp(1, MOST_CELLS);
+            (0..=cells).map(|k| k as f64 / cells as f64).collect()
+        });
+        Self { lines }
+    }
+
     /// Number of vertices.
     pub fn len(&self) -> usize {
         self.lines[0].len() * self.lines[1].len()

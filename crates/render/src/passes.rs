@@ -3,15 +3,26 @@
 use rustc_hash::FxHashMap;
 use trimloop_gpu::{Gpu, shaders};
 
+/// How the cells of faces are trimmed; as in `shaders/surface.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Trim {
+    /// Not at all.
+    None,
+    /// By curves.
+    Curves,
+    /// By masks.
+    Masks,
+}
+
 /// What is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Pass {
-    /// Faces, opaque; whether trim curves pass through the cells.
-    Surface { is_trimmed: bool },
+    /// Faces, opaque.
+    Surface(Trim),
     /// Faces, transparent.
-    Veil { is_trimmed: bool },
+    Veil(Trim),
     /// What each pixel shows.
-    Identify { is_trimmed: bool },
+    Identify(Trim),
     /// Strips along boundaries.
     Border,
     /// What the strips show.
@@ -55,7 +66,7 @@ impl Passes {
         let storage = wgpu::BufferBindingType::Storage { read_only: true };
         let trims = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("trims"),
-            entries: &[0, 1, 2, 3, 4].map(|k| entry(k, wgpu::ShaderStages::FRAGMENT, storage)),
+            entries: &[0, 1, 2, 3, 4, 5].map(|k| entry(k, wgpu::ShaderStages::FRAGMENT, storage)),
         });
         let frame = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("frame"),
@@ -120,17 +131,17 @@ fn module(gpu: &Gpu, name: &str) -> wgpu::ShaderModule {
 
 fn build(gpu: &Gpu, layout: &wgpu::PipelineLayout, pass: Pass, samples: u32) -> wgpu::RenderPipeline {
     let (shader, entry) = match pass {
-        Pass::Surface { .. } => ("surface", "paint"),
-        Pass::Veil { .. } => ("surface", "veil"),
-        Pass::Identify { .. } => ("surface", "identify"),
+        Pass::Surface(_) => ("surface", "paint"),
+        Pass::Veil(_) => ("surface", "veil"),
+        Pass::Identify(_) => ("surface", "identify"),
         Pass::Border => ("border", "paint"),
         Pass::IdentifyBorder => ("border", "identify"),
         Pass::Edge | Pass::HiddenEdge | Pass::Line => ("edge", "paint"),
     };
     let module = module(gpu, shader);
     let constants: Vec<(&str, f64)> = match pass {
-        Pass::Surface { is_trimmed } | Pass::Veil { is_trimmed } | Pass::Identify { is_trimmed } => {
-            vec![("IS_TRIMMED", f64::from(u8::from(is_trimmed))), ("SAMPLES", f64::from(samples))]
+        Pass::Surface(trim) | Pass::Veil(trim) | Pass::Identify(trim) => {
+            vec![("TRIM", f64::from(trim as u8)), ("SAMPLES", f64::from(samples))]
         }
         Pass::Border | Pass::IdentifyBorder => Vec::new(),
         Pass::Edge => vec![("IS_EDGE", 1.0), ("PERCENT", 100.0)],
@@ -145,16 +156,15 @@ fn build(gpu: &Gpu, layout: &wgpu::PipelineLayout, pass: Pass, samples: u32) -> 
     let add = component(wgpu::BlendFactor::One, wgpu::BlendFactor::One);
     let thin = component(wgpu::BlendFactor::Zero, wgpu::BlendFactor::OneMinusSrc);
     let targets = match pass {
-        Pass::Surface { .. } | Pass::Border => vec![target(COLOR, None)],
-        Pass::Veil { .. } => vec![
+        Pass::Surface(_) | Pass::Border => vec![target(COLOR, None)],
+        Pass::Veil(_) => vec![
             target(COLOR, Some(wgpu::BlendState { color: add, alpha: add })),
             target(THROUGH, Some(wgpu::BlendState { color: thin, alpha: thin })),
         ],
-        Pass::Identify { .. } | Pass::IdentifyBorder => vec![target(IDS, None)],
+        Pass::Identify(_) | Pass::IdentifyBorder => vec![target(IDS, None)],
         Pass::Edge | Pass::HiddenEdge | Pass::Line => vec![target(COLOR, Some(premultiplied))],
     };
-    let is_solid =
-        matches!(pass, Pass::Surface { .. } | Pass::Border | Pass::Identify { .. } | Pass::IdentifyBorder);
+    let is_solid = matches!(pass, Pass::Surface(_) | Pass::Border | Pass::Identify(_) | Pass::IdentifyBorder);
     let compare = match pass {
         Pass::HiddenEdge => wgpu::CompareFunction::Less,
         Pass::Border | Pass::IdentifyBorder => wgpu::CompareFunction::Greater,

@@ -3,14 +3,15 @@
 use std::time::Instant;
 
 use rustc_hash::FxHashSet;
-use trimloop_gpu::{Backend, Evaluator, Gpu, GpuError};
+use trimloop_gpu::{Evaluator, Gpu, GpuError};
 use wgpu::util::DeviceExt;
 
 use crate::camera::Camera;
 use crate::error::MOST_PIXELS;
 use crate::frame::{Lists, Numbered, Shot, Tile, Visible};
+use crate::lod::Lod;
 use crate::look::{Background, EdgeStyle, Look, encode, linear};
-use crate::passes::{Pass, Passes};
+use crate::passes::{Pass, Passes, Trim};
 use crate::picture::{Pick, Picture, Seen};
 use crate::scene::{FaceKind, Scene};
 use crate::stage::{PieceKey, SEGMENTS, Stage};
@@ -22,7 +23,6 @@ use crate::{Place, RenderError};
 pub struct Renderer {
     gpu: Gpu,
     scene: Scene,
-    evaluator: Evaluator,
     stage: Stage,
     passes: Passes,
     targets: Option<Targets>,
@@ -74,7 +74,6 @@ impl Renderer {
         let stage = gpu.scoped(&name, || Stage::new(gpu, &scene))?;
         Ok(Self {
             gpu: gpu.clone(),
-            evaluator: Evaluator::on_gpu(gpu, Backend::Bezier),
             stage,
             passes: Passes::new(gpu),
             scene,
@@ -188,7 +187,8 @@ impl Renderer {
             let used: FxHashSet<PieceKey> = keys().collect();
             self.stage.forget(|key| used.contains(key));
         }
-        let (stage, gpu, evaluator, scene) = (&mut self.stage, &self.gpu, &self.evaluator, &self.scene);
+        let evaluator = &Evaluator::on_gpu(&self.gpu, look.lod.backend());
+        let (stage, gpu, scene) = (&mut self.stage, &self.gpu, &self.scene);
         let wanted: Vec<PieceKey> = keys().collect();
         gpu.scoped("evaluate the faces in the picture", || stage.evaluate(gpu, evaluator, scene, wanted))?;
         self.statistics = FrameStatistics {
@@ -267,8 +267,8 @@ impl Renderer {
                 ..Default::default()
             });
             bound.trims(&mut pass);
-            for (k, is_trimmed) in [(0, false), (1, true)] {
-                bound.faces(&gpu, &mut pass, passes, Pass::Identify { is_trimmed }, 1, &lists, k);
+            for (k, trim) in [(0, Trim::None), (1, trim_of(look))] {
+                bound.faces(&gpu, &mut pass, passes, Pass::Identify(trim), 1, &lists, k);
             }
             bound.strips(
                 &gpu,
@@ -285,6 +285,14 @@ impl Renderer {
         let texel =
             |b: &[u8]| [0, 4, 8, 12].map(|k| u32::from_ne_bytes([b[k], b[k + 1], b[k + 2], b[k + 3]]));
         Ok((bytes.chunks_exact(16).map(texel).collect(), lists.faces))
+    }
+}
+
+/// What trims the cells that are not whole.
+fn trim_of(look: &Look) -> Trim {
+    match look.lod {
+        Lod::Adaptive => Trim::Curves,
+        Lod::Grid => Trim::Masks,
     }
 }
 
@@ -466,8 +474,8 @@ fn draw(
         ..Default::default()
     });
     bound.trims(&mut pass);
-    for (k, is_trimmed) in [(0, false), (1, true)] {
-        bound.faces(gpu, &mut pass, passes, Pass::Surface { is_trimmed }, samples, lists, k);
+    for (k, trim) in [(0, Trim::None), (1, trim_of(look))] {
+        bound.faces(gpu, &mut pass, passes, Pass::Surface(trim), samples, lists, k);
     }
     bound.strips(gpu, &mut pass, passes, Pass::Border, samples, &bound.borders, lists.borders.len());
     let edges = [Pass::HiddenEdge, Pass::Edge];
@@ -488,8 +496,8 @@ fn draw(
         ..Default::default()
     });
     bound.trims(&mut pass);
-    for (k, is_trimmed) in [(2, false), (3, true)] {
-        bound.faces(gpu, &mut pass, passes, Pass::Veil { is_trimmed }, samples, lists, k);
+    for (k, trim) in [(2, Trim::None), (3, trim_of(look))] {
+        bound.faces(gpu, &mut pass, passes, Pass::Veil(trim), samples, lists, k);
     }
 }
 

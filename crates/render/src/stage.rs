@@ -1,18 +1,28 @@
 //! A scene on the device: what does not depend on the view, and the grids that were evaluated so far.
 
+use std::collections::BTreeMap;
+
 use glam::{DVec2, DVec3, Vec4};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
-use trimloop_gpu::{Evaluator, Gpu, GpuError, Places, Quantities, Request, TrimHeader, TrimTable};
+use trimloop_gpu::{
+    CHANNELS, Evaluator, Gpu, GpuError, Places, Quantities, Request, TrimFans, TrimHeader, TrimTable,
+    trim_textures,
+};
 
 use crate::arena::Arena;
 use crate::border::{EdgeCurve, Segment, border_of};
 use crate::grid::{Grid, Triangulated};
+use crate::lod::Lod;
 use crate::scene::{FaceKind, Scene, SceneFace, Triangles};
 use crate::surface_face::SurfaceFace;
 
 /// Chords of boundaries and edges may be off by this share of what faces may.
 const STRIPS: f64 = 0.5;
+
+/// Texels of a trim texture along a direction.
+const MOST_TEXELS: u32 = 1024;
+const FEWEST_TEXELS: u32 = 16;
 
 /// Vertices of a block; segments of a block.
 pub(crate) const VERTICES: usize = 64;
@@ -68,6 +78,7 @@ pub(crate) struct PieceKey {
     /// The part of the face (see `SurfaceFace::tile`); 0 for its edges.
     pub tile: u64,
     pub level: i32,
+    pub lod: Lod,
 }
 
 /// Blocks of vertices and triangles over them.
@@ -75,8 +86,10 @@ pub(crate) struct PieceKey {
 pub(crate) struct Piece {
     /// What positions are relative to.
     pub origin: DVec3,
-    /// Number of its trim table.
+    /// Number of its trim table, or first word of its mask.
     pub trim: u32,
+    /// Texels of its mask along u, and along v in the upper half; 0 where curves trim it.
+    pub mask: u32,
     pub first_vertex: u32,
     pub blocks: u32,
     pub triangles: Triangulated,
@@ -101,6 +114,7 @@ pub(crate) struct Trims {
     bands: Arena<u32>,
     entries: Arena<u32>,
     curves: Arena<Vec4>,
+    masks: Arena<u32>,
 }
 
 impl Trims {
@@ -112,6 +126,7 @@ impl Trims {
             bands: Arena::new(gpu, "trim bands", none),
             entries: Arena::new(gpu, "trim entries", none),
             curves: Arena::new(gpu, "trim curves", none),
+            masks: Arena::new(gpu, "trim textures", none),
         }
     }
 
@@ -126,13 +141,14 @@ impl Trims {
         Ok(self.headers.add(gpu, &[header])? as u32)
     }
 
-    pub fn buffers(&self) -> [&wgpu::Buffer; 5] {
+    pub fn buffers(&self) -> [&wgpu::Buffer; 6] {
         [
             self.headers.buffer(),
             self.words.buffer(),
             self.bands.buffer(),
             self.entries.buffer(),
             self.curves.buffer(),
+            self.masks.buffer(),
         ]
     }
 
@@ -274,24 +290,69 @@ impl Stage {
             }
             gpu.queue().submit([encoder.finish()]);
         }
+        let mut masks = self.masks(gpu, &drafts)?;
         for (draft, first) in drafts.into_iter().zip(firsts) {
             let strip = self.add_strip(gpu, &draft.strip)?;
             let Draft { key, origin, triangles, surface, .. } = draft;
             let blocks = surface.as_ref().map_or(0, |(_, grid)| grid.len().div_ceil(VERTICES)) as u32;
             let tile = (key.part, key.face, key.tile);
-            let trim = match (&surface, self.tables.get(&tile)) {
-                (None, _) => 0,
-                (Some(_), Some(table)) => *table,
-                (Some((face, _)), None) => {
+            let (trim, mask) = match (&surface, masks.remove(&key), self.tables.get(&tile)) {
+                (None, ..) => (0, 0),
+                (_, Some(mask), _) => mask,
+                (Some(_), None, Some(table)) => (*table, 0),
+                (Some((face, _)), None, None) => {
                     let table = self.trims.add(gpu, &face.table)?;
                     self.tables.insert(tile, table);
-                    table
+                    (table, 0)
                 }
             };
-            let piece = Piece { origin, trim, first_vertex: first as u32, blocks, triangles, strip };
+            let piece = Piece { origin, trim, mask, first_vertex: first as u32, blocks, triangles, strip };
             self.pieces.insert(key, piece);
         }
         Ok(())
+    }
+
+    /// Trim textures of what is trimmed by them: the first word and the size, by piece.
+    fn masks(
+        &mut self,
+        gpu: &Gpu,
+        drafts: &[Draft<'_>],
+    ) -> Result<FxHashMap<PieceKey, (u32, u32)>, GpuError> {
+        let mut by_size: BTreeMap<[u32; 2], Vec<(PieceKey, &SurfaceFace)>> = BTreeMap::new();
+        for draft in drafts.iter().filter(|d| d.key.lod == Lod::Grid && !d.triangles.part.is_empty()) {
+            let Some((face, _)) = &draft.surface else { continue };
+            let texels = 0.5 / f64::from(draft.key.level).exp2();
+            let side = |d: usize| {
+                TrimFans::side(face.bounds.lengths[d], texels, MOST_TEXELS)
+                    .next_power_of_two()
+                    .max(FEWEST_TEXELS)
+            };
+            by_size.entry([side(0), side(1)]).or_default().push((draft.key, face));
+        }
+        let mut out = FxHashMap::default();
+        for ([columns, rows], faces) in by_size {
+            for four in faces.chunks(CHANNELS) {
+                let fans: Vec<TrimFans> = four
+                    .iter()
+                    .map(|(_, face)| {
+                        let [u, v] = face.shape.domain();
+                        let (low, high) = (DVec2::new(u.start, v.start), DVec2::new(u.end, v.end));
+                        TrimFans::new(&face.domain, low, high)
+                    })
+                    .collect();
+                let textures = trim_textures(gpu, &fans, columns, rows)?;
+                for ((key, _), texture) in four.iter().zip(textures) {
+                    let words: Vec<u32> = texture
+                        .texels
+                        .chunks_exact(4)
+                        .map(|t| u32::from_le_bytes([t[0], t[1], t[2], t[3]]))
+                        .collect();
+                    let first = self.trims.masks.add(gpu, &words)? as u32;
+                    out.insert(*key, (first, columns | rows << 16));
+                }
+            }
+        }
+        Ok(out)
     }
 
     /// Gives back the room of the pieces that `is_used` does not know.
@@ -299,6 +360,10 @@ impl Stage {
         let unused: Vec<PieceKey> = self.pieces.keys().filter(|key| !is_used(key)).copied().collect();
         for key in unused {
             if let Some(piece) = self.pieces.remove(&key) {
+                let texels = (piece.mask & 0xffff) as usize * (piece.mask >> 16) as usize;
+                if texels > 0 {
+                    self.trims.masks.give_back(piece.trim as usize, texels / 4);
+                }
                 self.vertices.give_back(piece.first_vertex as usize, piece.blocks as usize * VERTICES);
                 self.segments.give_back(piece.strip.first as usize, piece.strip.blocks as usize * SEGMENTS);
             }
@@ -318,7 +383,10 @@ impl<'a> Draft<'a> {
         let FaceKind::Surface(whole) = &face.kind else { return None };
         let surface = whole.tile(key.tile)?;
         let origin = surface.shape.origin();
-        let grid = Grid::new(surface, off_mm);
+        let grid = match key.lod {
+            Lod::Adaptive => Grid::new(surface, off_mm),
+            Lod::Grid => Grid::even(surface, off_mm),
+        };
         let triangles = grid.triangulate(surface);
         let strip = packed(&border_of(surface, STRIPS * off_mm), origin, Some(surface));
         Some(Self { key, origin, surface: Some((surface, grid)), triangles, strip })
