@@ -8,7 +8,8 @@ struct Step {
     region_columns: u32,
     // 0 along a row, 1 along a column.
     direction: u32,
-    unused_0: u32,
+    // Vectors per point.
+    width: u32,
     unused_1: u32,
     unused_2: u32,
 }
@@ -27,13 +28,15 @@ struct Place {
 }
 
 fn place_of(index: u32) -> Place {
-    let row = index / step_.columns;
-    let column = index % step_.columns;
+    let across = step_.columns * step_.width;
+    let row = index / across;
+    let column = index % across / step_.width;
+    let vector = index % step_.width;
     let is_inside = row < step_.region_rows && column < step_.region_columns;
     if step_.direction == 0u {
-        return Place(is_inside, column, step_.region_columns, row * step_.columns, 1u);
+        return Place(is_inside, column, step_.region_columns, row * across + vector, step_.width);
     }
-    return Place(is_inside, row, step_.region_rows, column, step_.columns);
+    return Place(is_inside, row, step_.region_rows, index % across, across);
 }
 
 fn value(place: Place, k: u32) -> vec4<f32> {
@@ -47,7 +50,7 @@ fn main(
     @builtin(local_invocation_index) local: u32,
 ) {
     let index = (workgroup.y * workgroups.x + workgroup.x) * 64u + local;
-    if index >= step_.rows * step_.columns {
+    if index >= step_.rows * step_.columns * step_.width {
         return;
     }
     let place = place_of(index);

@@ -173,6 +173,17 @@ impl Gpu {
         })
     }
 
+    /// A buffer for shaders that is copied from and into.
+    pub(crate) fn reserve_on_device(&self, label: &str, bytes: u64) -> wgpu::Buffer {
+        let copies = wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
+        self.0.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: bytes.max(16).next_multiple_of(16),
+            usage: wgpu::BufferUsages::STORAGE | copies,
+            mapped_at_creation: false,
+        })
+    }
+
     /// A buffer that textures are copied into.
     pub fn reserve_for_copies(&self, label: &str, bytes: u64) -> wgpu::Buffer {
         self.0.device.create_buffer(&wgpu::BufferDescriptor {

@@ -37,6 +37,8 @@ pub struct Pyramid {
 pub struct DevicePyramid {
     gpu: Gpu,
     levels: Levels,
+    /// Vectors per point.
+    width: u32,
     /// The grid, and room for the step along one direction.
     buffers: [wgpu::Buffer; 2],
 }
@@ -50,7 +52,8 @@ struct Step {
     region_rows: u32,
     region_columns: u32,
     direction: u32,
-    unused: [u32; 3],
+    width: u32,
+    unused: [u32; 2],
 }
 
 impl Wavelet {
@@ -206,7 +209,33 @@ impl DevicePyramid {
         let buffers = gpu.scoped(&request, || {
             Ok([gpu.upload("level", &pyramid.points), gpu.reserve("step of a level", bytes)])
         })?;
-        Ok(Self { gpu: gpu.clone(), levels, buffers })
+        Ok(Self { gpu: gpu.clone(), levels, width: 1, buffers })
+    }
+
+    /// The finest level as an evaluator left it: `width` vectors for each of `rows` x `columns` points from the byte
+    /// `offset` of `values` on.
+    ///
+    /// # Errors
+    /// What the device refuses; points that are not there.
+    pub fn of_values(
+        gpu: &Gpu,
+        wavelet: Wavelet,
+        [rows, columns]: [usize; 2],
+        width: u32,
+        values: &wgpu::Buffer,
+        offset: u64,
+    ) -> Result<Self, GpuError> {
+        let levels = Levels { wavelet, rows, columns, level: 0 };
+        let request = format!("{} of {rows} x {columns} points", wavelet.name());
+        let bytes = 16 * (rows * columns) as u64 * u64::from(width);
+        let buffers = gpu.scoped(&request, || {
+            let buffers = [0, 1].map(|_| gpu.reserve_on_device("level", bytes));
+            let mut encoder = gpu.device().create_command_encoder(&Default::default());
+            encoder.copy_buffer_to_buffer(values, offset, &buffers[0], 0, bytes);
+            gpu.queue().submit([encoder.finish()]);
+            Ok(buffers)
+        })?;
+        Ok(Self { gpu: gpu.clone(), levels, width, buffers })
     }
 
     /// How many steps lead down from the finest level.
@@ -217,6 +246,11 @@ impl DevicePyramid {
     /// Rows and columns of the present level.
     pub fn size(&self) -> [usize; 2] {
         self.levels.size()
+    }
+
+    /// Rows and columns of the finest level.
+    pub fn finest(&self) -> [usize; 2] {
+        self.levels.size_at(0)
     }
 
     /// Whether a coarser level exists: both directions can be halved.
@@ -248,10 +282,11 @@ impl DevicePyramid {
                     region_rows: region[0] as u32,
                     region_columns: region[1] as u32,
                     direction,
-                    unused: [0; 3],
+                    width: self.width,
+                    unused: [0; 2],
                 };
                 let step = self.gpu.upload("step", &[step]);
-                let points = levels.rows * levels.columns;
+                let points = levels.rows * levels.columns * self.width as usize;
                 let key = Key::new(shader, "main");
                 self.gpu.dispatch(&mut encoder, &key, &[&step, before, after], points.div_ceil(64));
                 std::mem::swap(&mut before, &mut after);
@@ -263,7 +298,7 @@ impl DevicePyramid {
         Ok(())
     }
 
-    /// The points of the present level, row-major.
+    /// The points of the present level, row-major (one vector each).
     ///
     /// # Errors
     /// What the device refuses.

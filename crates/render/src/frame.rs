@@ -326,7 +326,7 @@ impl Seek<'_> {
         let [u, v] = cells(&face.bounds, f64::from(visible.key.level).exp2());
         let depth = 63 - key.tile.leading_zeros();
         let is_fine = u.max(v) <= MOST_CELLS || depth >= DEEPEST;
-        if is_fine || key.lod == Lod::Grid {
+        if is_fine || key.lod != Lod::Adaptive {
             out.push(visible);
             return;
         }

@@ -1,7 +1,7 @@
 //! How fine a face's grid must be, and what it consists of.
 
 use glam::DVec2;
-use trimloop_gpu::Cover;
+use trimloop_gpu::{Cover, Wavelet};
 
 use crate::surface_face::{Bounds, Spans, SurfaceFace};
 
@@ -43,6 +43,28 @@ impl Grid {
             (0..=cells).map(|k| k as f64 / cells as f64).collect()
         });
         Self { lines }
+    }
+
+    /// Doublings of each direction that make an even grid fine enough.
+    pub fn doublings(face: &SurfaceFace, off_mm: f64) -> [u32; 2] {
+        Self::even(face, off_mm).lines.map(|lines| (lines.len() - 1).next_power_of_two().trailing_zeros())
+    }
+
+    /// A level of a pyramid whose finest level has 2^doublings cells: what is left after `steps` down.
+    pub fn level(wavelet: Wavelet, doublings: [u32; 2], steps: u32) -> Self {
+        let line = |n: u32| -> Vec<f64> {
+            let cells = 1u32 << (n - steps);
+            let at = |k: u32| f64::from(k) / f64::from(cells);
+            match wavelet {
+                Wavelet::Lifting => (0..=cells).map(at).collect(),
+                // 2^n points from border to border, and the middles of ever more of them.
+                Wavelet::Haar => {
+                    let (whole, each) = (f64::from((1u32 << n) - 1), f64::from(1u32 << steps));
+                    (0..cells).map(|k| (f64::from(k) * each + 0.5 * (each - 1.0)) / whole).collect()
+                }
+            }
+        };
+        Self { lines: doublings.map(line) }
     }
 
     /// Number of vertices.

@@ -1,6 +1,6 @@
 //! How levels of detail are chosen.
 
-use trimloop_gpu::Backend;
+use trimloop_gpu::{Backend, Wavelet};
 
 /// How levels of detail are chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -11,17 +11,24 @@ pub enum Lod {
     /// Krishnamurthy, Khardekar, McMains 2009: even grids, continuous in both directions, by size, distance and bend; trim
     /// textures in place of exact trims.
     Grid,
+    /// Tan, Zhao, Lu 2012: one fine grid per face, coarser ones from it without evaluating again, by interpolating lifting,
+    /// which leaves points where they are; exact trims.
+    Wavelet,
+    /// The same by Haar wavelets, as published: averages leave the surface and its borders.
+    WaveletHaar,
 }
 
 impl Lod {
     /// All of them, the default first.
-    pub const ALL: [Self; 2] = [Self::Adaptive, Self::Grid];
+    pub const ALL: [Self; 4] = [Self::Adaptive, Self::Grid, Self::Wavelet, Self::WaveletHaar];
 
     /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Adaptive => "adaptive",
             Self::Grid => "grid",
+            Self::Wavelet => "wavelet",
+            Self::WaveletHaar => "wavelet-haar",
         }
     }
 
@@ -30,6 +37,16 @@ impl Lod {
         match self {
             Self::Adaptive => Backend::Bezier,
             Self::Grid => Backend::KrishnamurthyPacked,
+            Self::Wavelet | Self::WaveletHaar => Backend::Tan,
+        }
+    }
+
+    /// The wavelet that makes coarser levels, if one does.
+    pub(crate) const fn wavelet(self) -> Option<Wavelet> {
+        match self {
+            Self::Adaptive | Self::Grid => None,
+            Self::Wavelet => Some(Wavelet::Lifting),
+            Self::WaveletHaar => Some(Wavelet::Haar),
         }
     }
 

@@ -291,7 +291,7 @@ impl Renderer {
 /// What trims the cells that are not whole.
 fn trim_of(look: &Look) -> Trim {
     match look.lod {
-        Lod::Adaptive => Trim::Curves,
+        Lod::Adaptive | Lod::Wavelet | Lod::WaveletHaar => Trim::Curves,
         Lod::Grid => Trim::Masks,
     }
 }

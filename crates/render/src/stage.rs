@@ -6,8 +6,8 @@ use glam::{DVec2, DVec3, Vec4};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use trimloop_gpu::{
-    CHANNELS, Evaluator, Gpu, GpuError, Places, Quantities, Request, TrimFans, TrimHeader, TrimTable,
-    trim_textures,
+    CHANNELS, DevicePyramid, Evaluator, Gpu, GpuError, Places, Quantities, Request, TrimFans, TrimHeader,
+    TrimTable, Wavelet, trim_textures,
 };
 
 use crate::arena::Arena;
@@ -41,6 +41,8 @@ pub(crate) struct Stage {
     /// By part: the free curves, relative to their middle.
     pub curves: Vec<Vec<StagedCurve>>,
     pieces: FxHashMap<PieceKey, Piece>,
+    /// By part, face and strategy.
+    pyramids: FxHashMap<(u32, u32, Lod), Leveled>,
     /// Numbers of trim tables by part, face and tile.
     tables: FxHashMap<(u32, u32, u64), u32>,
     /// Points that were evaluated since the last time that somebody asked.
@@ -79,6 +81,16 @@ pub(crate) struct PieceKey {
     pub tile: u64,
     pub level: i32,
     pub lod: Lod,
+}
+
+/// A finest grid with its coarser levels.
+#[derive(Debug)]
+struct Leveled {
+    pyramid: DevicePyramid,
+    /// Doublings of each direction of the finest grid.
+    doublings: [u32; 2],
+    /// What that is fine enough for.
+    level: i32,
 }
 
 /// Blocks of vertices and triangles over them.
@@ -167,6 +179,7 @@ impl Stage {
             faces: Vec::new(),
             curves: Vec::new(),
             pieces: FxHashMap::default(),
+            pyramids: FxHashMap::default(),
             tables: FxHashMap::default(),
             evaluated: 0,
         };
@@ -242,6 +255,9 @@ impl Stage {
         wanted.retain(|key| !self.pieces.contains_key(key));
         wanted.sort_unstable_by_key(|key| (key.part, key.face, key.tile, key.level));
         wanted.dedup();
+        let (leveled, wanted): (Vec<PieceKey>, Vec<PieceKey>) =
+            wanted.into_iter().partition(|key| key.tile > 0 && key.lod.wavelet().is_some());
+        self.step_levels(gpu, evaluator, scene, &leveled)?;
         let staged = &self.faces;
         let drafts: Vec<Draft<'_>> = wanted
             .into_par_iter()
@@ -295,19 +311,124 @@ impl Stage {
             let strip = self.add_strip(gpu, &draft.strip)?;
             let Draft { key, origin, triangles, surface, .. } = draft;
             let blocks = surface.as_ref().map_or(0, |(_, grid)| grid.len().div_ceil(VERTICES)) as u32;
-            let tile = (key.part, key.face, key.tile);
-            let (trim, mask) = match (&surface, masks.remove(&key), self.tables.get(&tile)) {
-                (None, ..) => (0, 0),
-                (_, Some(mask), _) => mask,
-                (Some(_), None, Some(table)) => (*table, 0),
-                (Some((face, _)), None, None) => {
-                    let table = self.trims.add(gpu, &face.table)?;
-                    self.tables.insert(tile, table);
-                    (table, 0)
-                }
+            let (trim, mask) = match (&surface, masks.remove(&key)) {
+                (None, _) => (0, 0),
+                (_, Some(mask)) => mask,
+                (Some((face, _)), None) => (self.table(gpu, &key, face)?, 0),
             };
             let piece = Piece { origin, trim, mask, first_vertex: first as u32, blocks, triangles, strip };
             self.pieces.insert(key, piece);
+        }
+        Ok(())
+    }
+
+    /// The number of a face's trim table.
+    fn table(&mut self, gpu: &Gpu, key: &PieceKey, face: &SurfaceFace) -> Result<u32, GpuError> {
+        let tile = (key.part, key.face, key.tile);
+        if let Some(table) = self.tables.get(&tile) {
+            return Ok(*table);
+        }
+        let table = self.trims.add(gpu, &face.table)?;
+        self.tables.insert(tile, table);
+        Ok(table)
+    }
+
+    /// Pieces from pyramids: a finest grid is evaluated where there is none that is fine enough, others are steps from it.
+    fn step_levels(
+        &mut self,
+        gpu: &Gpu,
+        evaluator: &Evaluator,
+        scene: &Scene,
+        wanted: &[PieceKey],
+    ) -> Result<(), GpuError> {
+        let surface = |key: &PieceKey| match &scene.parts[key.part as usize].faces[key.face as usize].kind {
+            FaceKind::Surface(surface) => Some(&**surface),
+            _ => None,
+        };
+        let off_mm = |key: &PieceKey| f64::from(key.level).exp2();
+        let mut finest: BTreeMap<(u32, u32), PieceKey> = BTreeMap::new();
+        for key in wanted {
+            let there = self.pyramids.get(&(key.part, key.face, key.lod));
+            if there.is_none_or(|leveled| leveled.level > key.level) {
+                let own = finest.entry((key.part, key.face)).or_insert(*key);
+                own.level = own.level.min(key.level);
+            }
+        }
+        let bases: Vec<(PieceKey, &SurfaceFace, Wavelet, [u32; 2])> = finest
+            .into_values()
+            .filter_map(|key| {
+                let face = surface(&key)?;
+                // Two points at least, so that Haar has something to average.
+                let doublings = Grid::doublings(face, off_mm(&key)).map(|n| n.max(1));
+                Some((key, face, key.lod.wavelet()?, doublings))
+            })
+            .collect();
+        let requests: Vec<Request<'_>> = bases
+            .iter()
+            .map(|(_, face, wavelet, doublings)| {
+                let domain = face.shape.domain();
+                let lines = Grid::level(*wavelet, *doublings, 0).lines;
+                let [us, vs] = [0, 1].map(|d| lines[d].iter().map(|s| domain[d].at(*s)).collect());
+                Request { shape: &face.shape, places: Places::Grid { us, vs } }
+            })
+            .collect();
+        if !requests.is_empty() {
+            let values = evaluator.evaluate_on_device(&requests, Quantities::Normals)?;
+            for batch in values.batches() {
+                for piece in batch.pieces.iter().filter(|piece| piece.first == 0) {
+                    let (key, _, wavelet, doublings) = bases[piece.request];
+                    let size = Grid::level(wavelet, doublings, 0).lines.map(|lines| lines.len());
+                    let offset = (piece.offset * size_of::<[Vec4; 2]>()) as u64;
+                    let pyramid = DevicePyramid::of_values(gpu, wavelet, size, 2, &batch.buffer, offset)?;
+                    self.evaluated += size[0] * size[1];
+                    let leveled = Leveled { pyramid, doublings, level: key.level };
+                    self.pyramids.insert((key.part, key.face, key.lod), leveled);
+                }
+            }
+        }
+        for key in wanted {
+            let (Some(face), Some(wavelet)) = (surface(key), key.lod.wavelet()) else { continue };
+            let leveled = self.pyramids.get_mut(&(key.part, key.face, key.lod));
+            let Some(Leveled { pyramid, doublings, .. }) = leveled else { continue };
+            let needed = Grid::doublings(face, off_mm(key));
+            let fewest = u32::from(wavelet == Wavelet::Haar);
+            let steps = (0..2).map(|d| doublings[d].saturating_sub(needed[d].max(fewest))).min().unwrap_or(0);
+            while pyramid.level() != steps {
+                let before = pyramid.level();
+                pyramid.step(before < steps)?;
+                if pyramid.level() == before {
+                    break;
+                }
+            }
+            let grid = Grid::level(wavelet, *doublings, pyramid.level());
+            let stride = size_of::<[Vec4; 2]>() as u64;
+            let [rows, columns] = pyramid.size();
+            let across = pyramid.finest()[1];
+            let from = pyramid.buffer().clone();
+            let first = self.vertices.take(gpu, grid.len().next_multiple_of(VERTICES))?;
+            let mut encoder = gpu.device().create_command_encoder(&Default::default());
+            for row in 0..rows {
+                encoder.copy_buffer_to_buffer(
+                    &from,
+                    (row * across) as u64 * stride,
+                    self.vertices.buffer(),
+                    (first + row * columns) as u64 * stride,
+                    columns as u64 * stride,
+                );
+            }
+            gpu.queue().submit([encoder.finish()]);
+            let origin = face.shape.origin();
+            let packed = packed(&border_of(face, STRIPS * off_mm(key)), origin, Some(face));
+            let piece = Piece {
+                origin,
+                trim: self.table(gpu, key, face)?,
+                mask: 0,
+                first_vertex: first as u32,
+                blocks: grid.len().div_ceil(VERTICES) as u32,
+                triangles: grid.triangulate(face),
+                strip: self.add_strip(gpu, &packed)?,
+            };
+            self.pieces.insert(*key, piece);
         }
         Ok(())
     }
@@ -385,7 +506,7 @@ impl<'a> Draft<'a> {
         let origin = surface.shape.origin();
         let grid = match key.lod {
             Lod::Adaptive => Grid::new(surface, off_mm),
-            Lod::Grid => Grid::even(surface, off_mm),
+            Lod::Grid | Lod::Wavelet | Lod::WaveletHaar => Grid::even(surface, off_mm),
         };
         let triangles = grid.triangulate(surface);
         let strip = packed(&border_of(surface, STRIPS * off_mm), origin, Some(surface));

@@ -1,7 +1,7 @@
 //! Every pixel shows what is within half a pixel of the exact model, and nothing is open.
 
 use trimloop_mesh::Silent;
-use trimloop_render::{CpuRenderer, Direction, Look, Projection, prove};
+use trimloop_render::{CpuRenderer, Direction, Lod, Look, Projection, prove};
 
 use crate::{camera, model, renderer, scene};
 
@@ -89,4 +89,42 @@ fn close_to_a_thousandth_of_a_face() {
             assert!(proof.holds() && proof.covered > 0, "{name} at {zoom}: {proof:?}");
         }
     }
+}
+
+/// What the published strategies promise where they can: smooth surfaces, and cracks only where masks are.
+#[test]
+fn every_strategy_draws_smooth_models_within_half_a_pixel() {
+    for name in ["cadquery/bare_bracket.step", "cadquery/torus.step", "cadquery/plate_perforated.step"] {
+        let Some(mut renderer) = renderer(name) else { return };
+        let model = model(name);
+        let reference = CpuRenderer::with_deflection(&model, scene(&model), 1e-4, &Silent).expect("meshed");
+        for lod in Lod::ALL {
+            let camera = camera(renderer.scene(), Direction::ISO, SIZE);
+            let look = Look { lod, ..Look::default() };
+            let proof = prove(&mut renderer, Some(&reference), &camera, SIZE, &look).expect("a picture");
+            let most = if lod == Lod::Grid { 100 } else { 0 };
+            assert!(
+                proof.off == 0 && proof.spills == 0 && proof.covered > 300_000,
+                "{name} {lod:?} {proof:?}"
+            );
+            assert!(proof.cracks <= most, "{name} {lod:?} {proof:?}");
+        }
+    }
+}
+
+/// A level that is stepped down to and up again is the one that was evaluated.
+#[test]
+fn wavelets_go_down_and_up_without_evaluating_again() {
+    let Some(mut renderer) = renderer("cadquery/torus.step") else { return };
+    let look = Look { lod: Lod::Wavelet, ..Look::default() };
+    let near = camera(renderer.scene(), Direction::ISO, SIZE);
+    let small = [160, 128];
+    let seen = renderer.seen(&near, SIZE, &look).expect("a picture");
+    assert!(renderer.statistics().evaluated > 0);
+    let proof = prove(&mut renderer, None, &near, small, &look).expect("a picture");
+    assert!(proof.holds() && proof.covered > 5000, "{proof:?}");
+    assert_eq!(renderer.statistics().evaluated, 0);
+    let again = renderer.seen(&near, SIZE, &look).expect("a picture");
+    assert_eq!(renderer.statistics().evaluated, 0);
+    assert!(seen.pixels == again.pixels);
 }
