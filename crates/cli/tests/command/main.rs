@@ -4,6 +4,7 @@ mod bad_input;
 mod compare;
 mod inspect;
 mod output;
+mod render;
 mod report;
 
 use std::ffi::OsStr;
