@@ -22,6 +22,7 @@ pub mod nurbs;
 mod period;
 mod project;
 mod surface;
+pub mod tspline;
 
 pub use aabb::Aabb;
 pub use curve::{CompositeCurve, CompositeSegment, Curve, CurvePoint, OffsetCurve, Polyline};
@@ -30,3 +31,4 @@ pub use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
 pub use interval::Interval;
 pub use nurbs::{NurbsCurve, NurbsError, NurbsSurface};
 pub use surface::{Derivatives, Direction, Singularity, Surface, SurfacePoint};
+pub use tspline::TSpline;

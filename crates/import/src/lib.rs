@@ -37,10 +37,12 @@ mod sew;
 mod sniff;
 mod split;
 mod step;
+mod tspline;
 
 use std::path::Path;
 
 use trimloop_brep::Model;
+use trimloop_geom::TSpline;
 use trimloop_iges::IgesFile;
 use trimloop_part21::{Exchange, ReadError, ReadOptions};
 
@@ -69,6 +71,9 @@ pub enum ImportError {
     /// The file could not be read as an IGES file.
     #[error(transparent)]
     Iges(#[from] trimloop_iges::ReadError),
+    /// The file could not be read as a T-spline.
+    #[error(transparent)]
+    TSpline(#[from] trimloop_geom::tspline::TextError),
     /// Nothing in it is geometry that can be shown.
     #[error("{0}")]
     Nothing(String),
@@ -81,18 +86,24 @@ pub enum Parsed {
     Step(Exchange),
     /// IGES.
     Iges(IgesFile),
+    /// A T-spline.
+    TSpline(TSpline),
 }
 
 impl Parsed {
     /// Reads a CAD file, whatever its format (by content, not by name).
     pub fn read(path: &Path, options: &ImportOptions) -> Result<Self, ImportError> {
-        if Format::of_file(path).map_err(ReadError::Io)? == Format::Iges {
+        let format = Format::of_file(path).map_err(ReadError::Io)?;
+        if format != Format::Step {
             let size = std::fs::metadata(path).map_err(ReadError::Io)?.len();
             if size > options.max_unpacked_bytes {
                 return Err(ReadError::TooLarge { cap: options.max_unpacked_bytes }.into());
             }
             let bytes = std::fs::read(path).map_err(ReadError::Io)?;
-            return Ok(Self::Iges(IgesFile::parse(&bytes)?));
+            return match format {
+                Format::TSpline => Ok(Self::TSpline(TSpline::parse(&String::from_utf8_lossy(&bytes))?)),
+                _ => Ok(Self::Iges(IgesFile::parse(&bytes)?)),
+            };
         }
         let read = ReadOptions { max_bytes: options.max_unpacked_bytes, ..ReadOptions::default() };
         Ok(Self::Step(Exchange::read(path, &read)?))
@@ -103,6 +114,7 @@ impl Parsed {
         match self {
             Self::Step(exchange) => import_step(exchange),
             Self::Iges(file) => import_iges(file),
+            Self::TSpline(spline) => tspline::import(spline),
         }
     }
 }

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use trimloop_geom::TSpline;
 use trimloop_iges::IgesFile;
 
 /// A CAD file format, by what the file begins with.
@@ -13,6 +14,8 @@ pub enum Format {
     Step,
     /// IGES 5.1 to 5.3, fixed or compressed (also binary, for its reader to refuse).
     Iges,
+    /// A T-spline in this project's own text format ([`trimloop_geom::tspline`]).
+    TSpline,
 }
 
 impl Format {
@@ -28,7 +31,13 @@ impl Format {
 
     /// The format of a text by its first bytes.
     pub fn of_bytes(head: &[u8]) -> Self {
-        if !is_step(head) && IgesFile::looks_like(head) { Self::Iges } else { Self::Step }
+        if TSpline::looks_like(head) {
+            Self::TSpline
+        } else if !is_step(head) && IgesFile::looks_like(head) {
+            Self::Iges
+        } else {
+            Self::Step
+        }
     }
 }
 
