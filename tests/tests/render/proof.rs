@@ -12,7 +12,7 @@ const VIEWS: [Direction; 3] = [
     Direction { azimuth_deg: 200.0, elevation_deg: -60.0 },
 ];
 
-const MODELS: [&str; 34] = [
+const MODELS: [&str; 37] = [
     "cadquery/assembly_nested.step",
     "cadquery/assembly_mirrored.step",
     "cadquery/assembly_transparent.step",
@@ -47,6 +47,9 @@ const MODELS: [&str; 34] = [
     "cadquery/torus_lemon.step",
     "cadquery/trimmed_surface.step",
     "freecad/thread.step",
+    "tspline/hill.tspline",
+    "tspline/ring.tspline",
+    "tspline/wave.tspline",
 ];
 
 /// One part of the models, so that the parts run beside each other.
