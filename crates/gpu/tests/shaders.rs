@@ -8,15 +8,17 @@ fn every_shader_is_portable() {
         let source = trimloop_gpu::shaders::source(name).expect("listed");
         let module = naga::front::wgsl::parse_str(&source)
             .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(&source)));
-        Validator::new(ValidationFlags::all(), Capabilities::empty())
+        let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
             .validate(&module)
             .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(&source)));
         // Browsers guarantee 8 storage buffers per stage and 16 KiB of workgroup memory.
-        let storage = module
-            .global_variables
-            .iter()
-            .filter(|(_, variable)| matches!(variable.space, naga::AddressSpace::Storage { .. }));
-        assert!(storage.count() <= 8, "{name} has too many storage buffers");
+        for (k, entry) in module.entry_points.iter().enumerate() {
+            let used = info.get_entry_point(k);
+            let storage = module.global_variables.iter().filter(|(handle, variable)| {
+                matches!(variable.space, naga::AddressSpace::Storage { .. }) && !used[*handle].is_empty()
+            });
+            assert!(storage.count() <= 8, "{name}, {}, has too many storage buffers", entry.name);
+        }
         let shared = module.global_variables.iter().filter(|(_, v)| v.space == naga::AddressSpace::WorkGroup);
         let mut layouter = naga::proc::Layouter::default();
         layouter.update(module.to_ctx()).expect("sized");

@@ -22,7 +22,8 @@ fn clamped(inner: &[f64], end: f64) -> Vec<f64> {
 /// A grid with a column of vertices taken out over half of its height: T-junctions at its end.
 fn with_junctions() -> TMesh {
     let mut mesh = grid([clamped(&[1.0, 2.0, 2.5, 3.0], 4.0), clamped(&[1.0, 2.0, 2.5, 4.0], 5.0)]);
-    mesh.vertices.retain(|v| !(v.lines[0] == 6 && v.lines[1] < 6) && !(v.lines[1] == 6 && v.lines[0] > 7));
+    let is_out = |[i, j]: [usize; 2]| (i == 6 && j < 6) || (j == 6 && i > 7);
+    mesh.vertices.retain(|v| !is_out(v.lines));
     mesh
 }
 
