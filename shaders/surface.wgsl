@@ -4,7 +4,7 @@
 override TRIM: u32 = 1u;
 override SAMPLES: u32 = 4u;
 
-// Trim textures, four texels in a word, row by row.
+// Trim textures, 32 texels in a word, row by row.
 @group(0) @binding(5) var<storage, read> masks: array<u32>;
 
 struct Corner {
@@ -39,8 +39,7 @@ fn holds(item: u32, uv: vec2<f32>) -> bool {
     let size = vec2<u32>(items[item].mask & 0xffffu, items[item].mask >> 16u);
     let texel = min(vec2<u32>(clamp(uv, vec2<f32>(), vec2<f32>(1.0)) * vec2<f32>(size)), size - 1u);
     let at = texel.y * size.x + texel.x;
-    let word = masks[items[item].trim + at / 4u];
-    return ((word >> (8u * (at % 4u))) & 0xffu) > 127u;
+    return ((masks[items[item].trim + at / 32u] >> (at % 32u)) & 1u) == 1u;
 }
 
 // Which samples of the pixel are inside the face. `uv` may change by `across` and `down` from pixel to pixel.

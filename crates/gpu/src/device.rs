@@ -1,10 +1,11 @@
 //! The graphics device, without a window.
 
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use wgpu::util::DeviceExt;
 
+use crate::trim_fan::CHANNELS;
 use crate::{GpuError, shaders};
 
 /// An open graphics device; cloning shares it.
@@ -20,6 +21,7 @@ struct Inner {
     info: wgpu::AdapterInfo,
     lost: Arc<Mutex<Option<String>>>,
     pipelines: Mutex<HashMap<Key, Arc<wgpu::ComputePipeline>>>,
+    trim_pipelines: OnceLock<[wgpu::RenderPipeline; CHANNELS]>,
 }
 
 /// A pass: the shader's name, its entry point and the values of its constants.
@@ -84,7 +86,8 @@ impl Gpu {
         });
         // What no scope catches is found by the next one; a panic is the default.
         device.on_uncaptured_error(Arc::new(|_| {}));
-        Ok(Self(Arc::new(Inner { device, queue, info, lost, pipelines: Mutex::default() })))
+        let (pipelines, trim_pipelines) = Default::default();
+        Ok(Self(Arc::new(Inner { device, queue, info, lost, pipelines, trim_pipelines })))
     }
 
     /// The adapter's name.
@@ -264,11 +267,22 @@ impl Gpu {
 
     /// A pass over `workgroups`; `buffers` are bindings 0, 1, ... of group 0.
     pub(crate) fn pass(&self, key: &Key, buffers: &[&wgpu::Buffer], workgroups: usize) -> Pass {
+        self.bound(key, buffers, None, workgroups)
+    }
+
+    fn bound(
+        &self,
+        key: &Key,
+        buffers: &[&wgpu::Buffer],
+        last: Option<wgpu::BindGroupEntry<'_>>,
+        workgroups: usize,
+    ) -> Pass {
         let pipeline = self.pipeline(key);
         let entries: Vec<wgpu::BindGroupEntry<'_>> = buffers
             .iter()
             .enumerate()
             .map(|(k, b)| wgpu::BindGroupEntry { binding: k as u32, resource: b.as_entire_binding() })
+            .chain(last)
             .collect();
         let group = self.0.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(key.shader),
@@ -276,6 +290,29 @@ impl Gpu {
             entries: &entries,
         });
         Pass { pipeline, group, workgroups }
+    }
+
+    /// As [`Gpu::pass`], with a texture as the binding after the last buffer.
+    pub(crate) fn pass_with_texture(
+        &self,
+        key: &Key,
+        buffers: &[&wgpu::Buffer],
+        texture: &wgpu::TextureView,
+        workgroups: usize,
+    ) -> Pass {
+        let last = wgpu::BindGroupEntry {
+            binding: buffers.len() as u32,
+            resource: wgpu::BindingResource::TextureView(texture),
+        };
+        self.bound(key, buffers, Some(last), workgroups)
+    }
+
+    /// The pipelines that draw trim textures, built at their first use.
+    pub(crate) fn trim_pipelines(
+        &self,
+        build: impl FnOnce(&Self) -> [wgpu::RenderPipeline; CHANNELS],
+    ) -> &[wgpu::RenderPipeline; CHANNELS] {
+        self.0.trim_pipelines.get_or_init(|| build(self))
     }
 
     /// Adds a pass that runs once to `encoder`; as [`Gpu::pass`].

@@ -14,6 +14,7 @@
 //! ```
 
 mod batch;
+mod curve_tree;
 mod deviation;
 mod device;
 mod error;
@@ -21,6 +22,7 @@ mod evaluate;
 mod faces;
 mod lod_factors;
 mod parameter;
+mod patch_tree;
 mod request;
 pub mod shaders;
 mod shape;
@@ -29,14 +31,16 @@ mod trim_fan;
 mod twin;
 mod wavelet;
 
+pub use curve_tree::{CurveNode, CurveTree};
 pub use deviation::Deviation;
 pub use device::Gpu;
 pub use error::GpuError;
 pub use evaluate::{DeviceBatch, DevicePiece, DeviceValues, Evaluator, Prepared};
 pub use faces::{FaceShape, FaceShapes};
 pub use lod_factors::{LodShape, LodView, lod_cells};
+pub use patch_tree::{Bicubic, PatchGrid, PatchNode, PatchRequest, PatchTree, evaluate_patches};
 pub use request::{Backend, Places, Quantities, Request, Values};
 pub use shape::Shape;
 pub use trim_classify::{Cover, TrimHeader, TrimTable};
-pub use trim_fan::{CHANNELS, TrimFans, TrimTexture, trim_textures};
+pub use trim_fan::{CHANNELS, TrimFans, TrimTexture, trim_masks, trim_textures};
 pub use wavelet::{DevicePyramid, Pyramid, Wavelet};

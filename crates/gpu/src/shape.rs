@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use glam::{DVec2, DVec3, DVec4, Vec3, Vec4};
-use trimloop_geom::nurbs::{BezierCurve, BezierPatch};
+use trimloop_geom::nurbs::{BezierCurve, BezierGrid, BezierPatch};
 use trimloop_geom::{Curve, Derivatives, Direction, Interval, NurbsCurve, NurbsSurface, Surface};
 
 use crate::parameter::ParameterMap;
@@ -249,9 +249,21 @@ impl Net {
         Bezier { columns: width, control, facets, breaks }
     }
 
+    /// The surface, relative to the shape's origin; none of a curve.
+    fn surface(&self) -> Option<NurbsSurface> {
+        let [rows, columns] = self.shape;
+        let knots = self.knots.clone();
+        let built = NurbsSurface::from_homogeneous(self.degrees, rows, columns, &self.points, knots);
+        built.ok().filter(|_| self.degrees[1] > 0)
+    }
+
+    /// The Bézier patches, relative to the shape's origin; none of a curve.
+    pub fn bezier_grid(&self) -> Option<BezierGrid> {
+        self.surface().map(|surface| surface.bezier_patches())
+    }
+
     /// The Bézier patches, long ones cut, relative to the shape's origin.
     fn patches(&self) -> Vec<BezierPatch> {
-        let [rows, columns] = self.shape;
         if self.degrees[1] == 0 {
             let knots = self.knots[0].clone();
             let curve = NurbsCurve::from_homogeneous(self.degrees[0], &self.points, knots);
@@ -264,9 +276,7 @@ impl Net {
             };
             return pieces.map(patch).collect();
         }
-        let knots = self.knots.clone();
-        let built = NurbsSurface::from_homogeneous(self.degrees, rows, columns, &self.points, knots);
-        let Ok(mut surface) = built else { return Vec::new() };
+        let Some(mut surface) = self.surface() else { return Vec::new() };
         let grid = surface.bezier_patches();
         for (d, direction) in [(0, Direction::U), (1, Direction::V)] {
             let new = cuts(&grid.patches, d);

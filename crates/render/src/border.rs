@@ -64,10 +64,19 @@ pub(crate) fn edges_of(part: &Part, face: FaceId, owners: &[Option<FaceId>]) -> 
 /// The boundary of a face: chords within `off_mm`, and so short that halfway along them lies what has half the
 /// parameters.
 pub(crate) fn border_of(face: &SurfaceFace, off_mm: f64) -> Vec<Segment> {
+    let seams = face.seams();
+    segments_of(face, face.border().chain(&seams), off_mm)
+}
+
+/// Curves in the parameter plane likewise.
+pub(crate) fn segments_of<'a>(
+    face: &SurfaceFace,
+    cubics: impl Iterator<Item = &'a Cubic>,
+    off_mm: f64,
+) -> Vec<Segment> {
     let mut out = Vec::new();
     let at = |uv: DVec2| face.shape.derivatives(uv).point;
-    let seams = face.seams();
-    for cubic in face.border().chain(&seams) {
+    for cubic in cubics {
         let ends = [(cubic[0], at(cubic[0])), (cubic[3], at(cubic[3]))];
         divide(face, cubic, [0.0, 1.0], ends, off_mm, DEEPEST, &mut out);
     }

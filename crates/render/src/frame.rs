@@ -7,7 +7,8 @@ use rayon::prelude::*;
 use trimloop_brep::Rgba;
 
 use crate::camera::{Camera, Projection};
-use crate::grid::cells;
+use crate::grid::{LONGEST, cells};
+use crate::hierarchy::{Chosen, Sight};
 use crate::lod::Lod;
 use crate::look::{Look, linear};
 use crate::scene::{FaceKind, Instance, Scene, SceneFace};
@@ -100,6 +101,8 @@ pub(crate) struct Numbered {
 
 /// Half the width of borders, pixels.
 const BORDER_PX: f32 = 0.25;
+/// Likewise where trim textures end faces, which are off by half a texel.
+const MASK_BORDER_PX: f32 = 0.32;
 const BORDER_SHIFT_PX: f32 = 0.5;
 const EDGE_PX: f32 = 0.7;
 const EDGE_SHIFT_PX: f32 = 2.0;
@@ -138,13 +141,16 @@ impl Shot<'_> {
 
     /// How far off the surface may be, as a power of two, millimetres.
     fn level(&self, center: DVec3, radius: f64, scale: f64) -> i32 {
-        let depth = if self.camera.is_parallel() {
-            1.0
-        } else {
-            (-center.z - radius).max(INSIDE * radius).max(f64::MIN_POSITIVE)
+        level_of(self.allowed_mm(-center.z - radius, radius, scale))
+    }
+
+    /// How far off something may be whose nearest point is `depth` away, in its own millimetres.
+    fn allowed_mm(&self, depth: f64, radius: f64, scale: f64) -> f64 {
+        let depth = match self.camera.is_parallel() {
+            true => 1.0,
+            false => depth.max(INSIDE * radius).max(f64::MIN_POSITIVE),
         };
-        let off = self.look.screen_error_px * GEOMETRY * self.camera.pixel(self.size[1]) * depth / scale;
-        off.log2().floor().clamp(-60.0, 60.0) as i32
+        self.look.screen_error_px * GEOMETRY * self.camera.pixel(self.size[1]) * depth / scale
     }
 
     /// The tables of a tile, once everything in `visible` is evaluated; `is_solid` takes what is transparent for opaque.
@@ -153,6 +159,8 @@ impl Shot<'_> {
         let mut lists = Lists::default();
         let mut indices: [Vec<u32>; 4] = Default::default();
         let mut placed: Option<(u32, Placed)> = None;
+        // The trim texture that the patches of a hierarchy share.
+        let mut shared = (0, 0);
         for one in visible.iter().filter(|one| frustum.holds(one.center, one.radius)) {
             let instance = &self.scene.instances[one.instance as usize];
             let placed = match &placed {
@@ -164,9 +172,18 @@ impl Shot<'_> {
             let Some(own) = stage.piece(&one.key) else { continue };
             let color = self.color(instance, face);
             let item = lists.items.len() as u32;
-            lists.faces.push(Numbered { instance: one.instance, face: one.key.face, tile: one.key.tile });
-            let placed = placed.item(own.origin, color, own.trim, item + 1, instance.node.is_none());
-            lists.items.push(Item { mask: own.mask, ..placed });
+            let (mut trim, mut mask, mut tile) = (own.trim, own.mask, one.key.tile);
+            if one.key.lod == Lod::BezierHierarchy {
+                match one.key.is_patch() {
+                    true => (trim, mask) = shared,
+                    false => shared = (trim, mask),
+                }
+                // Shares are of the whole face.
+                tile = PieceKey::WHOLE;
+            }
+            lists.faces.push(Numbered { instance: one.instance, face: one.key.face, tile });
+            let placed = placed.item(own.origin, color, trim, item + 1, instance.node.is_none());
+            lists.items.push(Item { mask, ..placed });
             let is_clear = !is_solid && color[3] < 0.999;
             let piece = if one.key.tile == 0 {
                 lists.add_strip(item, &own.strip, Kind::Edge);
@@ -251,7 +268,7 @@ impl Shot<'_> {
             pixel: pixel as f32,
             is_parallel: u32::from(camera.is_parallel()),
             up,
-            border: BORDER_PX,
+            border: if self.look.lod.has_masks() { MASK_BORDER_PX } else { BORDER_PX },
             section,
             edge: Vec4::new(0.012, 0.014, 0.018, 1.0),
             edge_width: EDGE_PX,
@@ -296,6 +313,10 @@ impl Shot<'_> {
     }
 }
 
+fn level_of(allowed_mm: f64) -> i32 {
+    allowed_mm.log2().floor().clamp(-60.0, 60.0) as i32
+}
+
 /// Looks for the parts of a face that are in the picture.
 struct Seek<'a> {
     shot: &'a Shot<'a>,
@@ -314,8 +335,14 @@ impl Seek<'_> {
         let Some(whole) = self.sphere(key, face.sphere) else { return };
         let first = out.len();
         out.push(whole);
-        if let FaceKind::Surface(surface) = &face.kind {
-            self.tile(surface, PieceKey { tile: 1, ..key }, out);
+        match &face.kind {
+            FaceKind::Surface(surface) if key.lod == Lod::BezierHierarchy => {
+                self.patches(surface, PieceKey { tile: PieceKey::WHOLE, ..key }, out);
+            }
+            FaceKind::Surface(surface) => {
+                self.tile(surface, PieceKey { tile: PieceKey::WHOLE, ..key }, out);
+            }
+            _ => {}
         }
         // Edges are as fine as the finest part.
         out[first].key.level = out[first..].iter().map(|v| v.key.level).min().unwrap_or(whole.key.level);
@@ -337,6 +364,25 @@ impl Seek<'_> {
         }
     }
 
+    /// The boundary with its trim texture, as fine as the finest patch, then patches.
+    fn patches(&self, face: &SurfaceFace, key: PieceKey, out: &mut Vec<Visible>) {
+        let Some(whole) = self.sphere(key, face.sphere()) else { return };
+        let first = out.len();
+        out.push(whole);
+        let Some(hierarchy) = face.hierarchy() else { return };
+        let patch = |chosen: Chosen| Visible {
+            instance: self.instance,
+            key: PieceKey { tile: PieceKey::patch(chosen.node), level: level_of(chosen.allowed_mm), ..key },
+            center: self.placed.point(chosen.center),
+            radius: chosen.radius * self.placed.scale,
+        };
+        out.extend(hierarchy.choose(face, self, LONGEST).into_iter().map(patch));
+        match out[first + 1..].iter().map(|v| v.key.level).min() {
+            Some(finest) => out[first].key.level = finest,
+            None => out.truncate(first),
+        }
+    }
+
     /// What is inside the sphere, if that is in the picture.
     fn sphere(&self, key: PieceKey, (center, radius): (DVec3, f64)) -> Option<Visible> {
         let center = self.placed.point(center);
@@ -345,6 +391,30 @@ impl Seek<'_> {
         let key = PieceKey { level, ..key };
         let is_seen = self.frustum.holds(center, radius);
         is_seen.then_some(Visible { instance: self.instance, key, center, radius })
+    }
+}
+
+impl Sight for Seek<'_> {
+    fn crossed(&self, low: DVec3, high: DVec3, planes: u8) -> Option<u8> {
+        let center = self.placed.point(0.5 * (low + high));
+        let mut crossed = planes;
+        for (k, (normal, offset)) in self.frustum.planes().enumerate().filter(|(k, _)| planes >> k & 1 == 1) {
+            let reach = self.placed.reach(high - low, normal);
+            let distance = normal.dot(center) + offset;
+            if distance < -reach {
+                return None;
+            }
+            if distance >= reach {
+                crossed &= !(1 << k);
+            }
+        }
+        Some(crossed)
+    }
+
+    fn allowed_mm(&self, low: DVec3, high: DVec3) -> f64 {
+        let nearest = self.placed.point(0.5 * (low + high)).z + self.placed.reach(high - low, DVec3::Z);
+        let radius = 0.5 * low.distance(high) * self.placed.scale;
+        self.shot.allowed_mm(-nearest, radius, self.placed.scale)
     }
 }
 
@@ -390,6 +460,11 @@ impl Placed {
         self.matrix.transform_point3(p)
     }
 
+    /// How far a box with sides of `size` reaches from its middle along a direction in the eye's coordinates.
+    fn reach(&self, size: DVec3, direction: DVec3) -> f64 {
+        0.5 * (self.matrix.matrix3.transpose() * direction).abs().dot(size)
+    }
+
     fn item(&self, origin: DVec3, color: [f32; 4], trim: u32, id: u32, is_cap: bool) -> Item {
         let m = self.matrix.matrix3.transpose();
         let t = self.point(origin);
@@ -424,6 +499,12 @@ impl Frustum {
         let sides =
             [side(DVec3::X, left), side(-DVec3::X, right), side(DVec3::Y, lower), side(-DVec3::Y, upper)];
         Self { sides, is_parallel }
+    }
+
+    /// The four sides and, in a perspective view, the plane through the eye.
+    fn planes(&self) -> impl Iterator<Item = (DVec3, f64)> {
+        let ahead = (!self.is_parallel).then_some((-DVec3::Z, 0.0));
+        self.sides.into_iter().chain(ahead)
     }
 
     fn holds(&self, center: DVec3, radius: f64) -> bool {

@@ -23,7 +23,7 @@ pub(crate) struct Triangulated {
 /// Most cells along a direction.
 pub(crate) const MOST_CELLS: usize = 512;
 /// A cell is at most this many times as long as the surface may be off.
-const LONGEST: f64 = 1000.0;
+pub(crate) const LONGEST: f64 = 1000.0;
 
 impl Grid {
     /// A grid whose triangles are within `off_mm` of the surface, and whose interpolated parameters belong to points

@@ -24,6 +24,7 @@ mod cpu;
 mod error;
 mod frame;
 mod grid;
+mod hierarchy;
 mod lod;
 mod look;
 mod names;

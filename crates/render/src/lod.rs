@@ -16,11 +16,15 @@ pub enum Lod {
     Wavelet,
     /// The same by Haar wavelets, as published: averages leave the surface and its borders.
     WaveletHaar,
+    /// Guthe, Balázs, Klein 2005: per face a tree of rational bicubic patches, and of cubic curves per trim loop, of which
+    /// each view takes the coarsest that are near enough; trim textures, and fat borders between patches.
+    BezierHierarchy,
 }
 
 impl Lod {
     /// All of them, the default first.
-    pub const ALL: [Self; 4] = [Self::Adaptive, Self::Grid, Self::Wavelet, Self::WaveletHaar];
+    pub const ALL: [Self; 5] =
+        [Self::Adaptive, Self::Grid, Self::Wavelet, Self::WaveletHaar, Self::BezierHierarchy];
 
     /// Its name.
     pub const fn name(self) -> &'static str {
@@ -29,13 +33,15 @@ impl Lod {
             Self::Grid => "grid",
             Self::Wavelet => "wavelet",
             Self::WaveletHaar => "wavelet-haar",
+            Self::BezierHierarchy => "bezier-hierarchy",
         }
     }
 
     /// What evaluates.
     pub(crate) const fn backend(self) -> Backend {
         match self {
-            Self::Adaptive => Backend::Bezier,
+            // Of a hierarchy, the faces that have none.
+            Self::Adaptive | Self::BezierHierarchy => Backend::Bezier,
             Self::Grid => Backend::KrishnamurthyPacked,
             Self::Wavelet | Self::WaveletHaar => Backend::Tan,
         }
@@ -44,10 +50,15 @@ impl Lod {
     /// The wavelet that makes coarser levels, if one does.
     pub(crate) const fn wavelet(self) -> Option<Wavelet> {
         match self {
-            Self::Adaptive | Self::Grid => None,
+            Self::Adaptive | Self::Grid | Self::BezierHierarchy => None,
             Self::Wavelet => Some(Wavelet::Lifting),
             Self::WaveletHaar => Some(Wavelet::Haar),
         }
+    }
+
+    /// Whether trim textures trim, not the exact curves.
+    pub(crate) const fn has_masks(self) -> bool {
+        matches!(self, Self::Grid | Self::BezierHierarchy)
     }
 
     /// The strategy with a name.

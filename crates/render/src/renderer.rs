@@ -9,7 +9,6 @@ use wgpu::util::DeviceExt;
 use crate::camera::Camera;
 use crate::error::MOST_PIXELS;
 use crate::frame::{Lists, Numbered, Shot, Tile, Visible};
-use crate::lod::Lod;
 use crate::look::{Background, EdgeStyle, Look, encode, linear};
 use crate::passes::{Pass, Passes, Trim};
 use crate::picture::{Pick, Picture, Seen};
@@ -290,10 +289,7 @@ impl Renderer {
 
 /// What trims the cells that are not whole.
 fn trim_of(look: &Look) -> Trim {
-    match look.lod {
-        Lod::Adaptive | Lod::Wavelet | Lod::WaveletHaar => Trim::Curves,
-        Lod::Grid => Trim::Masks,
-    }
+    if look.lod.has_masks() { Trim::Masks } else { Trim::Curves }
 }
 
 /// What a texel of the pass that identifies means.

@@ -6,13 +6,14 @@ use glam::{DVec2, DVec3, Vec4};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use trimloop_gpu::{
-    CHANNELS, DevicePyramid, Evaluator, Gpu, GpuError, Places, Quantities, Request, TrimFans, TrimHeader,
-    TrimTable, Wavelet, trim_textures,
+    CHANNELS, DevicePyramid, Evaluator, Gpu, GpuError, PatchGrid, PatchRequest, PatchTree, Places,
+    Quantities, Request, TrimFans, TrimHeader, TrimTable, Wavelet, evaluate_patches, trim_masks,
 };
 
 use crate::arena::Arena;
-use crate::border::{EdgeCurve, Segment, border_of};
-use crate::grid::{Grid, Triangulated};
+use crate::border::{EdgeCurve, Segment, border_of, segments_of};
+use crate::grid::{Grid, LONGEST, MOST_CELLS, Triangulated};
+use crate::hierarchy::{APPROXIMATION, Hierarchy};
 use crate::lod::Lod;
 use crate::scene::{FaceKind, Scene, SceneFace, Triangles};
 use crate::surface_face::SurfaceFace;
@@ -20,9 +21,14 @@ use crate::surface_face::SurfaceFace;
 /// Chords of boundaries and edges may be off by this share of what faces may.
 const STRIPS: f64 = 0.5;
 
-/// Texels of a trim texture along a direction.
-const MOST_TEXELS: u32 = 1024;
-const FEWEST_TEXELS: u32 = 16;
+/// Trim curves of hierarchies, and their chords, may be off by this share.
+const TRIMS: f64 = 0.25;
+/// Pieces of a patch's side, each of which is drawn or not.
+const SIDE_PIECES: u32 = 16;
+
+/// Texels of a trim texture along a direction; 32 of them fill a word.
+const MOST_TEXELS: u32 = 4096;
+const FEWEST_TEXELS: u32 = 32;
 
 /// Vertices of a block; segments of a block.
 pub(crate) const VERTICES: usize = 64;
@@ -77,10 +83,36 @@ pub(crate) struct Strip {
 pub(crate) struct PieceKey {
     pub part: u32,
     pub face: u32,
-    /// The part of the face (see `SurfaceFace::tile`); 0 for its edges.
+    /// The part of the face (see `SurfaceFace::tile`); 0 for its edges. In a hierarchy 1 for the boundary and the trim
+    /// texture, then a number per patch.
     pub tile: u64,
     pub level: i32,
     pub lod: Lod,
+}
+
+impl PieceKey {
+    /// The whole of a face.
+    pub const WHOLE: u64 = 1;
+    const PATCHES: u64 = 2;
+
+    /// The number of a patch of a hierarchy.
+    pub fn patch(node: usize) -> u64 {
+        Self::PATCHES + node as u64
+    }
+
+    /// The patch of a hierarchy, if it is one.
+    fn node(&self) -> Option<usize> {
+        self.is_patch().then(|| (self.tile - Self::PATCHES) as usize)
+    }
+
+    pub fn is_patch(&self) -> bool {
+        self.lod == Lod::BezierHierarchy && self.tile >= Self::PATCHES
+    }
+
+    /// How far off the piece may be.
+    fn off_mm(&self) -> f64 {
+        f64::from(self.level).exp2()
+    }
 }
 
 /// A finest grid with its coarser levels.
@@ -113,7 +145,9 @@ pub(crate) struct Piece {
 struct Draft<'a> {
     key: PieceKey,
     origin: DVec3,
-    surface: Option<(&'a SurfaceFace, Grid)>,
+    face: Option<&'a SurfaceFace>,
+    /// What is evaluated at which shares of the domain.
+    grid: Option<Grid>,
     triangles: Triangulated,
     strip: Vec<[Vec4; 4]>,
 }
@@ -269,7 +303,8 @@ impl Stage {
         let grids: Vec<(usize, &SurfaceFace, &Grid)> = drafts
             .iter()
             .enumerate()
-            .filter_map(|(k, draft)| draft.surface.as_ref().map(|(face, grid)| (k, *face, grid)))
+            .filter(|(_, draft)| !draft.key.is_patch())
+            .filter_map(|(k, draft)| Some((k, draft.face?, draft.grid.as_ref()?)))
             .collect();
         let request = |&(_, face, grid): &(usize, &'_ SurfaceFace, &Grid)| {
             let domain = face.shape.domain();
@@ -283,9 +318,11 @@ impl Stage {
             })
             .collect();
         let mut firsts = vec![0; drafts.len()];
-        for (k, _, grid) in &grids {
-            firsts[*k] = self.vertices.take(gpu, grid.len().next_multiple_of(VERTICES))?;
-            self.evaluated += grid.len();
+        for (first, draft) in firsts.iter_mut().zip(&drafts) {
+            if let Some(grid) = &draft.grid {
+                *first = self.vertices.take(gpu, grid.len().next_multiple_of(VERTICES))?;
+                self.evaluated += grid.len();
+            }
         }
         if !requests.is_empty() {
             let values = evaluator.evaluate_on_device(&requests, Quantities::Normals)?;
@@ -306,15 +343,16 @@ impl Stage {
             }
             gpu.queue().submit([encoder.finish()]);
         }
+        self.evaluate_patches(gpu, &drafts, &firsts)?;
         let mut masks = self.masks(gpu, &drafts)?;
         for (draft, first) in drafts.into_iter().zip(firsts) {
             let strip = self.add_strip(gpu, &draft.strip)?;
-            let Draft { key, origin, triangles, surface, .. } = draft;
-            let blocks = surface.as_ref().map_or(0, |(_, grid)| grid.len().div_ceil(VERTICES)) as u32;
-            let (trim, mask) = match (&surface, masks.remove(&key)) {
-                (None, _) => (0, 0),
+            let Draft { key, origin, triangles, face, grid, .. } = draft;
+            let blocks = grid.as_ref().map_or(0, |grid| grid.len().div_ceil(VERTICES)) as u32;
+            let (trim, mask) = match (face, masks.remove(&key)) {
                 (_, Some(mask)) => mask,
-                (Some((face, _)), None) => (self.table(gpu, &key, face)?, 0),
+                (Some(face), None) if !key.lod.has_masks() => (self.table(gpu, &key, face)?, 0),
+                _ => (0, 0),
             };
             let piece = Piece { origin, trim, mask, first_vertex: first as u32, blocks, triangles, strip };
             self.pieces.insert(key, piece);
@@ -345,7 +383,6 @@ impl Stage {
             FaceKind::Surface(surface) => Some(&**surface),
             _ => None,
         };
-        let off_mm = |key: &PieceKey| f64::from(key.level).exp2();
         let mut finest: BTreeMap<(u32, u32), PieceKey> = BTreeMap::new();
         for key in wanted {
             let there = self.pyramids.get(&(key.part, key.face, key.lod));
@@ -359,7 +396,7 @@ impl Stage {
             .filter_map(|key| {
                 let face = surface(&key)?;
                 // Two points at least, so that Haar has something to average.
-                let doublings = Grid::doublings(face, off_mm(&key)).map(|n| n.max(1));
+                let doublings = Grid::doublings(face, key.off_mm()).map(|n| n.max(1));
                 Some((key, face, key.lod.wavelet()?, doublings))
             })
             .collect();
@@ -390,7 +427,7 @@ impl Stage {
             let (Some(face), Some(wavelet)) = (surface(key), key.lod.wavelet()) else { continue };
             let leveled = self.pyramids.get_mut(&(key.part, key.face, key.lod));
             let Some(Leveled { pyramid, doublings, .. }) = leveled else { continue };
-            let needed = Grid::doublings(face, off_mm(key));
+            let needed = Grid::doublings(face, key.off_mm());
             let fewest = u32::from(wavelet == Wavelet::Haar);
             let steps = (0..2).map(|d| doublings[d].saturating_sub(needed[d].max(fewest))).min().unwrap_or(0);
             while pyramid.level() != steps {
@@ -418,7 +455,7 @@ impl Stage {
             }
             gpu.queue().submit([encoder.finish()]);
             let origin = face.shape.origin();
-            let packed = packed(&border_of(face, STRIPS * off_mm(key)), origin, Some(face));
+            let packed = packed(&border_of(face, STRIPS * key.off_mm()), origin, Some(face));
             let piece = Piece {
                 origin,
                 trim: self.table(gpu, key, face)?,
@@ -433,44 +470,63 @@ impl Stage {
         Ok(())
     }
 
+    /// Evaluates the patches of hierarchies among `drafts` to where `firsts` says.
+    fn evaluate_patches(&self, gpu: &Gpu, drafts: &[Draft<'_>], firsts: &[usize]) -> Result<(), GpuError> {
+        // Patches of one face follow each other: its tree is locked once.
+        let mut grids: Vec<(&SurfaceFace, Vec<(usize, &Draft<'_>)>)> = Vec::new();
+        for (k, draft) in drafts.iter().enumerate().filter(|(_, draft)| draft.key.is_patch()) {
+            let Some(face) = draft.face else { continue };
+            match grids.last_mut() {
+                Some((last, own)) if std::ptr::eq(*last, face) => own.push((k, draft)),
+                _ => grids.push((face, vec![(k, draft)])),
+            }
+        }
+        let requests: Vec<PatchRequest> = grids
+            .into_par_iter()
+            .filter_map(|(face, own)| Some((face, face.hierarchy()?, own)))
+            .flat_map_iter(|(face, hierarchy, own)| {
+                hierarchy.with_tree(|tree| {
+                    let request = |(k, draft): (usize, &Draft<'_>)| {
+                        let grid = draft.patch_grid(face, tree)?;
+                        Some(grid.request(draft.origin, firsts[k]))
+                    };
+                    own.into_iter().filter_map(request).collect::<Vec<_>>()
+                })
+            })
+            .collect();
+        evaluate_patches(gpu, &requests, self.vertices.buffer())
+    }
+
     /// Trim textures of what is trimmed by them: the first word and the size, by piece.
     fn masks(
         &mut self,
         gpu: &Gpu,
         drafts: &[Draft<'_>],
     ) -> Result<FxHashMap<PieceKey, (u32, u32)>, GpuError> {
-        let mut by_size: BTreeMap<[u32; 2], Vec<(PieceKey, &SurfaceFace)>> = BTreeMap::new();
-        for draft in drafts.iter().filter(|d| d.key.lod == Lod::Grid && !d.triangles.part.is_empty()) {
-            let Some((face, _)) = &draft.surface else { continue };
-            let texels = 0.5 / f64::from(draft.key.level).exp2();
+        let mut by_size: BTreeMap<[u32; 2], Vec<(PieceKey, TrimFans)>> = BTreeMap::new();
+        for draft in drafts.iter().filter(|d| d.key.lod.has_masks() && !d.key.is_patch()) {
+            let Some(face) = draft.face.filter(|face| !face.is_whole()) else { continue };
+            let texels = 0.5 / draft.key.off_mm();
             let side = |d: usize| {
                 TrimFans::side(face.bounds.lengths[d], texels, MOST_TEXELS)
                     .next_power_of_two()
                     .max(FEWEST_TEXELS)
             };
-            by_size.entry([side(0), side(1)]).or_default().push((draft.key, face));
+            by_size.entry([side(0), side(1)]).or_default().push((draft.key, fans(&draft.key, face)));
         }
         let mut out = FxHashMap::default();
         for ([columns, rows], faces) in by_size {
+            let words = columns as usize / 32 * rows as usize;
             for four in faces.chunks(CHANNELS) {
-                let fans: Vec<TrimFans> = four
+                let firsts: Vec<u32> = four
                     .iter()
-                    .map(|(_, face)| {
-                        let [u, v] = face.shape.domain();
-                        let (low, high) = (DVec2::new(u.start, v.start), DVec2::new(u.end, v.end));
-                        TrimFans::new(&face.domain, low, high)
-                    })
-                    .collect();
-                let textures = trim_textures(gpu, &fans, columns, rows)?;
-                for ((key, _), texture) in four.iter().zip(textures) {
-                    let words: Vec<u32> = texture
-                        .texels
-                        .chunks_exact(4)
-                        .map(|t| u32::from_le_bytes([t[0], t[1], t[2], t[3]]))
-                        .collect();
-                    let first = self.trims.masks.add(gpu, &words)? as u32;
-                    out.insert(*key, (first, columns | rows << 16));
-                }
+                    .map(|_| Ok(self.trims.masks.take(gpu, words)? as u32))
+                    .collect::<Result<_, GpuError>>()?;
+                let fans: Vec<TrimFans> = four.iter().map(|(_, fans)| fans.clone()).collect();
+                trim_masks(gpu, &fans, [columns, rows], &firsts, self.trims.masks.buffer())?;
+                out.extend(
+                    four.iter().zip(firsts).map(|((key, _), first)| (*key, (first, columns | rows << 16))),
+                );
             }
         }
         Ok(out)
@@ -483,7 +539,7 @@ impl Stage {
             if let Some(piece) = self.pieces.remove(&key) {
                 let texels = (piece.mask & 0xffff) as usize * (piece.mask >> 16) as usize;
                 if texels > 0 {
-                    self.trims.masks.give_back(piece.trim as usize, texels / 4);
+                    self.trims.masks.give_back(piece.trim as usize, texels / 32);
                 }
                 self.vertices.give_back(piece.first_vertex as usize, piece.blocks as usize * VERTICES);
                 self.segments.give_back(piece.strip.first as usize, piece.strip.blocks as usize * SEGMENTS);
@@ -494,24 +550,77 @@ impl Stage {
 
 impl<'a> Draft<'a> {
     fn new(key: PieceKey, face: &'a SceneFace, origin: DVec3) -> Option<Self> {
-        let off_mm = f64::from(key.level).exp2();
+        let off_mm = key.off_mm();
         if key.tile == 0 {
             let edge = |edge: &EdgeCurve| chords(&edge.sample(STRIPS * off_mm));
             let edges: Vec<Segment> = face.edges.iter().flat_map(edge).collect();
             let strip = packed(&edges, origin, None);
-            return Some(Self { key, origin, surface: None, triangles: Triangulated::default(), strip });
+            let triangles = Triangulated::default();
+            return Some(Self { key, origin, face: None, grid: None, triangles, strip });
         }
         let FaceKind::Surface(whole) = &face.kind else { return None };
+        if let (Lod::BezierHierarchy, Some(hierarchy)) = (key.lod, whole.hierarchy()) {
+            return Some(Self::of_hierarchy(key, whole, hierarchy));
+        }
         let surface = whole.tile(key.tile)?;
         let origin = surface.shape.origin();
         let grid = match key.lod {
             Lod::Adaptive => Grid::new(surface, off_mm),
-            Lod::Grid | Lod::Wavelet | Lod::WaveletHaar => Grid::even(surface, off_mm),
+            _ => Grid::even(surface, off_mm),
         };
         let triangles = grid.triangulate(surface);
         let strip = packed(&border_of(surface, STRIPS * off_mm), origin, Some(surface));
-        Some(Self { key, origin, surface: Some((surface, grid)), triangles, strip })
+        Some(Self { key, origin, face: Some(surface), grid: Some(grid), triangles, strip })
     }
+
+    /// A patch, or the boundary.
+    fn of_hierarchy(key: PieceKey, face: &'a SurfaceFace, hierarchy: &Hierarchy) -> Self {
+        let off_mm = key.off_mm();
+        let mut draft = Self {
+            key,
+            origin: face.shape.origin(),
+            face: Some(face),
+            grid: None,
+            triangles: Triangulated::default(),
+            strip: Vec::new(),
+        };
+        if !key.is_patch() {
+            draft.strip = packed(&border_of(face, STRIPS * off_mm), draft.origin, Some(face));
+            return draft;
+        }
+        let found = hierarchy.with_tree(|tree| {
+            let grid = draft.patch_grid(face, tree)?;
+            Some((grid.shares(0), grid.shares(1), tree.node(grid.node).bounds.center()))
+        });
+        let Some((us, vs, origin)) = found else { return draft };
+        draft.origin = origin;
+        let [low, high] = [[us[0], vs[0]], [us[us.len() - 1], vs[vs.len() - 1]]].map(DVec2::from);
+        let grid = Grid { lines: [us, vs] };
+        draft.triangles = grid.triangulate(face);
+        draft.grid = Some(grid);
+        let sides = face.sides(low, high, SIDE_PIECES);
+        draft.strip = packed(&segments_of(face, sides.iter(), STRIPS * off_mm), origin, Some(face));
+        draft
+    }
+
+    /// The grid of a patch of a hierarchy.
+    fn patch_grid<'t>(&self, face: &'t SurfaceFace, tree: &'t PatchTree) -> Option<PatchGrid<'t>> {
+        let node = self.key.node()?;
+        let off_mm = (1.0 - APPROXIMATION) * self.key.off_mm();
+        let cells = tree.patch(node).cells(off_mm, LONGEST * self.key.off_mm()).map(|n| n.min(MOST_CELLS));
+        Some(PatchGrid { shape: &face.shape, tree, node, cells })
+    }
+}
+
+/// What a trim texture is drawn from.
+fn fans(key: &PieceKey, face: &SurfaceFace) -> TrimFans {
+    if let (Lod::BezierHierarchy, Some(hierarchy)) = (key.lod, face.hierarchy()) {
+        let off_mm = TRIMS * key.off_mm();
+        let lengths = DVec2::from(face.bounds.lengths);
+        return TrimFans::of_curves(&hierarchy.trims(off_mm), lengths, off_mm);
+    }
+    let [u, v] = face.shape.domain();
+    TrimFans::new(&face.domain, DVec2::new(u.start, v.start), DVec2::new(u.end, v.end))
 }
 
 fn chords(points: &[DVec3]) -> Vec<Segment> {

@@ -9,6 +9,7 @@ use trimloop_trim::TrimDomain;
 use trimloop_trim::curves::Cubic;
 
 use crate::grid::cells;
+use crate::hierarchy::Hierarchy;
 
 /// A face that is evaluated on the device.
 #[derive(Debug)]
@@ -28,6 +29,7 @@ pub struct SurfaceFace {
     /// The corners of its domain, as shares of the whole face's.
     pub(crate) window: [DVec2; 2],
     halves: OnceLock<[Option<Box<SurfaceFace>>; 2]>,
+    hierarchy: OnceLock<Option<Hierarchy>>,
 }
 
 /// How large, and how far from straight, a surface is. Millimetres; derivatives are with respect to shares of the domain.
@@ -78,8 +80,19 @@ impl SurfaceFace {
         let lines = [Direction::U, Direction::V].map(|d| breaks(&shape, d));
         let (bounds, box_mm) = Bounds::of(&shape, &lines);
         let is_finite = bounds.is_finite() && box_mm.diagonal().is_finite();
-        let halves = OnceLock::new();
-        is_finite.then(|| Self { shape, domain, chains, table, bounds, box_mm, is_whole, window, halves })
+        let (halves, hierarchy) = Default::default();
+        is_finite.then(|| Self {
+            shape,
+            domain,
+            chains,
+            table,
+            bounds,
+            box_mm,
+            is_whole,
+            window,
+            halves,
+            hierarchy,
+        })
     }
 
     /// Its two halves, as faces of their own with their own origins; `None` for one that holds nothing of the face.
@@ -118,6 +131,11 @@ impl SurfaceFace {
         Self::of(shape, self.domain.clone(), chains, table, is_whole, window)
     }
 
+    /// Its trees of patches and trim curves, made at their first use; `None` where the surface has no NURBS form.
+    pub(crate) fn hierarchy(&self) -> Option<&Hierarchy> {
+        self.hierarchy.get_or_init(|| Hierarchy::new(self)).as_ref()
+    }
+
     /// The part of the face that a path leads to: 1 is the whole, then a bit for each half.
     pub(crate) fn tile(&self, path: u64) -> Option<&Self> {
         let depth = 63 - path.max(1).leading_zeros();
@@ -146,11 +164,16 @@ impl SurfaceFace {
         if self.window == [DVec2::ZERO, DVec2::ONE] {
             return Vec::new();
         }
-        let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+        self.sides(DVec2::ZERO, DVec2::ONE, SEAM_PIECES)
+    }
+
+    /// The sides of a box of shares, in pieces, as far as they are inside the face.
+    pub(crate) fn sides(&self, low: DVec2, high: DVec2, pieces: u32) -> Vec<Cubic> {
+        let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
         let pieces = (0..4).flat_map(|k| {
             let (a, b) = (corners[k], corners[(k + 1) % 4]);
-            let at = move |n: u32| a.lerp(b, f64::from(n) / f64::from(SEAM_PIECES));
-            (0..SEAM_PIECES).map(move |n| [at(n), at(n + 1)])
+            let at = move |n: u32| a.lerp(b, f64::from(n) / f64::from(pieces));
+            (0..pieces).map(move |n| [at(n), at(n + 1)])
         });
         let is_inside = |[a, b]: &[DVec2; 2]| self.is_whole || self.table.cover(*a, *b) == Cover::Whole;
         let inside = pieces.map(|ends| ends.map(|share| self.parameters(share))).filter(is_inside);
@@ -176,6 +199,12 @@ impl SurfaceFace {
     pub fn parameters(&self, share: DVec2) -> DVec2 {
         let [u, v] = self.shape.domain();
         DVec2::new(u.at(share.x), v.at(share.y))
+    }
+
+    /// Shares of the domain at parameters.
+    pub(crate) fn share(&self, uv: DVec2) -> DVec2 {
+        let [u, v] = self.shape.domain();
+        (uv - DVec2::new(u.start, v.start)) / DVec2::new(u.length(), v.length())
     }
 
     /// Points of the face: its polygons' corners, and some inside.

@@ -115,6 +115,34 @@ fn every_strategy_draws_smooth_models_within_half_a_pixel() {
     }
 }
 
+/// Degrees above 3, kinks, uneven knots, poles and T-junctions as trees of bicubic patches.
+#[test]
+fn hierarchies_draw_every_kind_of_surface_within_half_a_pixel() {
+    for name in [
+        "cadquery/bspline_collapsed_side.step",
+        "cadquery/bspline_creased.step",
+        "cadquery/bspline_degree_1.step",
+        "cadquery/bspline_degree_9.step",
+        "cadquery/bspline_uneven_knots.step",
+        "cadquery/cone_cut_in_hyperbola.step",
+        "cadquery/hollow_ball.step",
+        "cadquery/thread.step",
+        "tspline/ring.tspline",
+    ] {
+        let Some(mut renderer) = renderer(name) else { return };
+        let model = model(name);
+        let reference = CpuRenderer::with_deflection(&model, scene(&model), 1e-4, &Silent).expect("meshed");
+        let camera = camera(renderer.scene(), Direction::ISO, SIZE);
+        let look = Look { lod: Lod::BezierHierarchy, ..Look::default() };
+        let proof = prove(&mut renderer, Some(&reference), &camera, SIZE, &look).expect("a picture");
+        assert!(proof.holds() && proof.covered > 200_000, "{name}: {proof:?}");
+        // What a view split is there for the next one.
+        let near = renderer.statistics().evaluated;
+        prove(&mut renderer, None, &camera, SIZE, &look).expect("a picture");
+        assert!(near > 0 && renderer.statistics().evaluated == 0, "{name}");
+    }
+}
+
 /// A level that is stepped down to and up again is the one that was evaluated.
 #[test]
 fn wavelets_go_down_and_up_without_evaluating_again() {
