@@ -73,11 +73,11 @@ const ALONG_V: u32 = 1 << 30;
 
 impl Link {
     fn leaf(original: usize, direction: usize) -> Self {
-        Self(LEAF | direction as u32 * ALONG_V | original as u32)
+        Self(LEAF | (direction as u32 * ALONG_V) | original as u32)
     }
 
     fn inner(first_child: usize, direction: usize) -> Self {
-        Self(direction as u32 * ALONG_V | first_child as u32)
+        Self((direction as u32 * ALONG_V) | first_child as u32)
     }
 
     fn is_leaf(self) -> bool {
