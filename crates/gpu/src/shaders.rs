@@ -43,4 +43,5 @@ const SHADERS: &[(&str, &[&str])] = &[
     shader!("border", "frame", "shade", "segment"),
     shader!("edge", "frame", "segment"),
     shader!("compose"),
+    shader!("emit"),
 ];

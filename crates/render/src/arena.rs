@@ -48,6 +48,9 @@ impl<T: bytemuck::Pod> Arena<T> {
     /// # Errors
     /// Where the device has no larger buffers.
     pub fn take(&mut self, gpu: &Gpu, count: usize) -> Result<usize, GpuError> {
+        if count == 0 {
+            return Ok(0);
+        }
         let fitting = self.gaps.iter().find(|(_, length)| **length >= count).map(|(s, l)| (*s, *l));
         if let Some((start, length)) = fitting {
             self.gaps.remove(&start);
@@ -64,6 +67,9 @@ impl<T: bytemuck::Pod> Arena<T> {
 
     /// Gives room back.
     pub fn give_back(&mut self, start: usize, count: usize) {
+        if count == 0 {
+            return;
+        }
         let mut gap = (start, count);
         if let Some((&before, &length)) = self.gaps.range(..start).next_back()
             && before + length == start

@@ -1,18 +1,17 @@
 //! What a view needs: which faces are seen, how fine, and the tables that the passes read.
 
-use std::ops::Range;
-
 use glam::{DAffine3, DVec3, Mat4, Vec2, Vec3, Vec4};
 use rayon::prelude::*;
 use trimloop_brep::Rgba;
 
 use crate::camera::{Camera, Projection};
+use crate::emission::{Bounds, Draw, Strips};
 use crate::grid::{LONGEST, cells};
 use crate::hierarchy::{Chosen, Sight};
 use crate::lod::Lod;
-use crate::look::{Look, linear};
+use crate::look::{EdgeStyle, Look, linear};
 use crate::scene::{FaceKind, Instance, Scene, SceneFace};
-use crate::stage::{PieceKey, SEGMENTS, Stage, Strip, VERTICES};
+use crate::stage::{PieceKey, Stage};
 use crate::surface_face::SurfaceFace;
 
 /// As in `shaders/shared/frame.wgsl`.
@@ -73,20 +72,16 @@ pub(crate) struct Visible {
     /// Its sphere in the eye's coordinates.
     center: DVec3,
     radius: f64,
+    /// Of a patch of a hierarchy, the level of the trim texture.
+    trim_level: i32,
 }
 
-/// The tables of a tile.
+/// What a picture is drawn from.
 #[derive(Debug, Default)]
 pub(crate) struct Lists {
     pub items: Vec<Item>,
-    /// Vertices of faces.
-    pub blocks: Vec<[u32; 2]>,
-    /// Triangles: opaque and whole, opaque and trimmed, transparent and whole, transparent and trimmed.
-    pub indices: Vec<u32>,
-    pub ranges: [Range<u32>; 4],
-    pub borders: Vec<[u32; 2]>,
-    pub edges: Vec<[u32; 2]>,
-    pub lines: Vec<[u32; 2]>,
+    /// By item.
+    pub draws: Vec<Draw>,
     /// By an item's id, less one.
     pub faces: Vec<Numbered>,
 }
@@ -153,77 +148,108 @@ impl Shot<'_> {
         self.look.screen_error_px * GEOMETRY * self.camera.pixel(self.size[1]) * depth / scale
     }
 
-    /// The tables of a tile, once everything in `visible` is evaluated; `is_solid` takes what is transparent for opaque.
-    pub fn lists(&self, stage: &Stage, visible: &[Visible], tile: &Tile, is_solid: bool) -> Lists {
-        let frustum = Frustum::new(self, tile);
+    /// What is drawn, once everything in `visible` is evaluated; `is_solid` takes what is transparent for opaque.
+    pub fn lists(&self, stage: &Stage, visible: &[Visible], is_solid: bool) -> Lists {
+        let places: Vec<Placed> =
+            self.scene.instances.iter().map(|i| Placed::new(self.camera, &i.transform)).collect();
+        let found: Vec<(Item, Draw, Numbered)> = visible
+            .par_iter()
+            .filter_map(|one| self.entry(stage, one, &places[one.instance as usize], is_solid))
+            .collect();
         let mut lists = Lists::default();
-        let mut indices: [Vec<u32>; 4] = Default::default();
-        let mut placed: Option<(u32, Placed)> = None;
-        // The trim texture that the patches of a hierarchy share.
-        let mut shared = (0, 0);
-        for one in visible.iter().filter(|one| frustum.holds(one.center, one.radius)) {
-            let instance = &self.scene.instances[one.instance as usize];
-            let placed = match &placed {
-                Some((index, placed)) if *index == one.instance => placed,
-                _ => &placed.insert((one.instance, Placed::new(self.camera, &instance.transform))).1,
-            };
-            let face = &self.scene.parts[instance.part].faces[one.key.face as usize];
-            let staged = &stage.faces[instance.part][one.key.face as usize];
-            let Some(own) = stage.piece(&one.key) else { continue };
-            let color = self.color(instance, face);
-            let item = lists.items.len() as u32;
-            let (mut trim, mut mask, mut tile) = (own.trim, own.mask, one.key.tile);
-            if one.key.lod == Lod::BezierHierarchy {
-                match one.key.is_patch() {
-                    true => (trim, mask) = shared,
-                    false => shared = (trim, mask),
-                }
-                // Shares are of the whole face.
-                tile = PieceKey::WHOLE;
-            }
-            lists.faces.push(Numbered { instance: one.instance, face: one.key.face, tile });
-            let placed = placed.item(own.origin, color, trim, item + 1, instance.node.is_none());
-            lists.items.push(Item { mask, ..placed });
-            let is_clear = !is_solid && color[3] < 0.999;
-            let piece = if one.key.tile == 0 {
-                lists.add_strip(item, &own.strip, Kind::Edge);
-                let Some(triangles) = &staged.triangles else { continue };
-                triangles
-            } else {
-                if !is_clear {
-                    lists.add_strip(item, &own.strip, Kind::Border);
-                }
-                own
-            };
-            let base = (lists.blocks.len() * VERTICES) as u32;
-            let blocks = (0..piece.blocks).map(|k| [item, piece.first_vertex + k * VERTICES as u32]);
-            lists.blocks.extend(blocks);
-            let first = if is_clear { 2 } else { 0 };
-            indices[first].extend(piece.triangles.whole.iter().map(|k| base + k));
-            indices[first + 1].extend(piece.triangles.part.iter().map(|k| base + k));
+        for (number, (item, draw, face)) in (0u32..).zip(found) {
+            lists.items.push(Item { id: number + 1, ..item });
+            lists.draws.push(Draw { item: number, ..draw });
+            lists.faces.push(face);
         }
-        self.add_curves(stage, &mut lists);
-        for (range, own) in lists.ranges.iter_mut().zip(indices) {
-            *range = lists.indices.len() as u32..(lists.indices.len() + own.len()) as u32;
-            lists.indices.extend(own);
-        }
+        self.add_curves(stage, &places, &mut lists);
         lists
     }
 
-    fn add_curves(&self, stage: &Stage, lists: &mut Lists) {
-        for instance in self.scene.instances.iter().filter(|i| i.is_shown) {
-            let curves = &stage.curves[instance.part];
-            if curves.is_empty() {
-                continue;
+    /// A piece at its place.
+    fn entry(
+        &self,
+        stage: &Stage,
+        one: &Visible,
+        placed: &Placed,
+        is_solid: bool,
+    ) -> Option<(Item, Draw, Numbered)> {
+        let Visible { instance, key, center, radius, trim_level } = *one;
+        let placed_in = &self.scene.instances[instance as usize];
+        let face = &self.scene.parts[placed_in.part].faces[key.face as usize];
+        let own = stage.piece(&key)?;
+        // The patches of a hierarchy share the trim texture of the whole.
+        let (trimmed, tile) = match key.lod == Lod::BezierHierarchy && key.tile > PieceKey::WHOLE {
+            true => {
+                let whole = PieceKey { tile: PieceKey::WHOLE, level: trim_level, ..key };
+                (stage.piece(&whole)?, PieceKey::WHOLE)
             }
-            let placed = Placed::new(self.camera, &instance.transform);
-            for (curve, (_, color)) in curves.iter().zip(&self.scene.parts[instance.part].curves) {
+            false => (own, key.tile),
+        };
+        let color = self.color(placed_in, face);
+        let item = placed.item(own.origin, color, trimmed.trim, placed_in.node.is_none());
+        let item = Item { mask: trimmed.mask, ..item };
+        let is_clear = !is_solid && color[3] < 0.999;
+        let is_edge = key.tile == 0;
+        let piece = match &stage.faces[placed_in.part][key.face as usize].triangles {
+            Some(triangles) if is_edge => triangles,
+            _ => own,
+        };
+        let has_strip = if is_edge { self.look.edges != EdgeStyle::None } else { !is_clear };
+        let draw = Draw {
+            center: center.as_vec3().to_array(),
+            // Rounding of the centre is made up for.
+            radius: (radius * 1.0001 + 1e-6 * center.length()) as f32,
+            first_vertex: piece.first_vertex,
+            blocks: piece.blocks,
+            columns: piece.cells.columns,
+            first_cell: piece.cells.first,
+            whole: piece.cells.whole,
+            part: piece.cells.part,
+            first_strip: own.strip.first,
+            strips: if has_strip { own.strip.blocks } else { 0 },
+            kind: Draw::kind(if is_edge { Strips::Edges } else { Strips::Borders }, is_clear),
+            ..Draw::default()
+        };
+        // What is cut away elsewhere is kept where it closes the cut.
+        let radius = if placed_in.node.is_none() { f32::MAX } else { draw.radius };
+        Some((item, Draw { radius, ..draw }, Numbered { instance, face: key.face, tile }))
+    }
+
+    fn add_curves(&self, stage: &Stage, places: &[Placed], lists: &mut Lists) {
+        for (instance, placed) in self.scene.instances.iter().zip(places).filter(|(i, _)| i.is_shown) {
+            let curves = stage.curves[instance.part].iter();
+            for (curve, (_, color)) in curves.zip(&self.scene.parts[instance.part].curves) {
                 let color = linear(instance.color.or(*color).unwrap_or(Rgba::opaque(0.1, 0.1, 0.1)));
-                let item = lists.items.len() as u32;
-                lists.items.push(placed.item(curve.origin, color, 0, 0, false));
-                lists.add_strip(item, &curve.strip, Kind::Line);
+                lists.draws.push(Draw {
+                    radius: f32::MAX,
+                    item: lists.items.len() as u32,
+                    first_strip: curve.strip.first,
+                    strips: curve.strip.blocks,
+                    kind: Draw::kind(Strips::Lines, false),
+                    ..Draw::default()
+                });
+                lists.items.push(placed.item(curve.origin, color, 0, false));
             }
         }
+    }
+
+    /// What a tile shows, and the section.
+    pub fn bounds(&self, tile: &Tile) -> Bounds {
+        let mut planes = [[0.0, 0.0, 0.0, f32::MAX]; 5];
+        for (to, (normal, offset)) in planes.iter_mut().zip(Frustum::new(self, tile).planes()) {
+            *to = normal.extend(offset).as_vec4().to_array();
+        }
+        Bounds { planes, section: self.section().to_array(), count: 0, unused: [0; 3] }
+    }
+
+    /// The section plane in the eye's coordinates; all zero for none.
+    fn section(&self) -> Vec4 {
+        self.look.section.map_or(Vec4::ZERO, |section| {
+            let normal = self.camera.rotation() * section.normal;
+            let offset = section.normal.dot(self.camera.eye) - section.offset_mm;
+            normal.extend(offset).as_vec4()
+        })
     }
 
     fn color(&self, instance: &Instance, face: &SceneFace) -> [f32; 4] {
@@ -256,11 +282,7 @@ impl Shot<'_> {
                 [0.0, 0.0, near, 0.0],
             ]
         };
-        let section = self.look.section.map_or(Vec4::ZERO, |section| {
-            let normal = camera.rotation() * section.normal;
-            let offset = section.normal.dot(camera.eye) - section.offset_mm;
-            normal.extend(offset).as_vec4()
-        });
+        let section = self.section();
         let up = (camera.rotation() * self.look.up.axis()).as_vec3();
         View {
             clip: Mat4::from_cols_array_2d(&clip.map(|column| column.map(|x| x as f32))),
@@ -375,10 +397,14 @@ impl Seek<'_> {
             key: PieceKey { tile: PieceKey::patch(chosen.node), level: level_of(chosen.allowed_mm), ..key },
             center: self.placed.point(chosen.center),
             radius: chosen.radius * self.placed.scale,
+            trim_level: 0,
         };
         out.extend(hierarchy.choose(face, self, LONGEST).into_iter().map(patch));
         match out[first + 1..].iter().map(|v| v.key.level).min() {
-            Some(finest) => out[first].key.level = finest,
+            Some(finest) => {
+                out[first].key.level = finest;
+                out[first + 1..].iter_mut().for_each(|v| v.trim_level = finest);
+            }
             None => out.truncate(first),
         }
     }
@@ -390,7 +416,7 @@ impl Seek<'_> {
         let level = self.shot.level(center, radius, self.placed.scale);
         let key = PieceKey { level, ..key };
         let is_seen = self.frustum.holds(center, radius);
-        is_seen.then_some(Visible { instance: self.instance, key, center, radius })
+        is_seen.then_some(Visible { instance: self.instance, key, center, radius, trim_level: level })
     }
 }
 
@@ -415,24 +441,6 @@ impl Sight for Seek<'_> {
         let nearest = self.placed.point(0.5 * (low + high)).z + self.placed.reach(high - low, DVec3::Z);
         let radius = 0.5 * low.distance(high) * self.placed.scale;
         self.shot.allowed_mm(-nearest, radius, self.placed.scale)
-    }
-}
-
-#[derive(Clone, Copy)]
-enum Kind {
-    Border,
-    Edge,
-    Line,
-}
-
-impl Lists {
-    fn add_strip(&mut self, item: u32, strip: &Strip, kind: Kind) {
-        let list = match kind {
-            Kind::Border => &mut self.borders,
-            Kind::Edge => &mut self.edges,
-            Kind::Line => &mut self.lines,
-        };
-        list.extend((0..strip.blocks).map(|k| [item, strip.first + k * SEGMENTS as u32]));
     }
 }
 
@@ -465,11 +473,11 @@ impl Placed {
         0.5 * (self.matrix.matrix3.transpose() * direction).abs().dot(size)
     }
 
-    fn item(&self, origin: DVec3, color: [f32; 4], trim: u32, id: u32, is_cap: bool) -> Item {
+    fn item(&self, origin: DVec3, color: [f32; 4], trim: u32, is_cap: bool) -> Item {
         let m = self.matrix.matrix3.transpose();
         let t = self.point(origin);
         let rows = [m.x_axis.extend(t.x), m.y_axis.extend(t.y), m.z_axis.extend(t.z)];
-        Item { rows: rows.map(|row| row.as_vec4()), color, trim, id, is_cap: u32::from(is_cap), mask: 0 }
+        Item { rows: rows.map(|row| row.as_vec4()), color, trim, id: 0, is_cap: u32::from(is_cap), mask: 0 }
     }
 }
 

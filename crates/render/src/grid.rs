@@ -11,10 +11,12 @@ pub(crate) struct Grid {
     pub lines: [Vec<f64>; 2],
 }
 
-/// Triangles over a grid's vertices (row-major, rows running over u).
+/// What is drawn over vertices: cells of a grid (row-major, rows running over u), each by its lowest vertex, or triangles.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Triangulated {
-    /// Cells that are inside the face: three indices per triangle.
+pub(crate) struct Cells {
+    /// Vertices along v; 0 where each three numbers are a triangle.
+    pub columns: u32,
+    /// Cells that are inside the face.
     pub whole: Vec<u32>,
     /// Cells that trim curves pass through.
     pub part: Vec<u32>,
@@ -73,22 +75,20 @@ impl Grid {
     }
 
     /// The cells that hold some of the face.
-    pub fn triangulate(&self, face: &SurfaceFace) -> Triangulated {
-        let mut out = Triangulated::default();
+    pub fn cells(&self, face: &SurfaceFace) -> Cells {
         let columns = self.lines[1].len() as u32;
+        let mut out = Cells { columns, ..Cells::default() };
         let is_whole = face.is_whole();
         for (i, u) in (0u32..).zip(self.lines[0].windows(2)) {
             for (j, v) in (0u32..).zip(self.lines[1].windows(2)) {
                 let [low, high] =
                     [DVec2::new(u[0], v[0]), DVec2::new(u[1], v[1])].map(|s| face.parameters(s));
                 let cover = if is_whole { Cover::Whole } else { face.table.cover(low, high) };
-                let list = match cover {
-                    Cover::None => continue,
-                    Cover::Whole => &mut out.whole,
-                    Cover::Part => &mut out.part,
-                };
-                let a = i * columns + j;
-                list.extend([a, a + columns, a + columns + 1, a, a + columns + 1, a + 1]);
+                match cover {
+                    Cover::None => {}
+                    Cover::Whole => out.whole.push(i * columns + j),
+                    Cover::Part => out.part.push(i * columns + j),
+                }
             }
         }
         out

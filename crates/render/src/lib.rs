@@ -21,6 +21,7 @@ mod border;
 mod camera;
 mod cap;
 mod cpu;
+mod emission;
 mod error;
 mod frame;
 mod grid;

@@ -7,13 +7,14 @@ use trimloop_gpu::{Evaluator, Gpu, GpuError};
 use wgpu::util::DeviceExt;
 
 use crate::camera::Camera;
+use crate::emission::{Emission, Emitter, Strips};
 use crate::error::MOST_PIXELS;
-use crate::frame::{Lists, Numbered, Shot, Tile, Visible};
+use crate::frame::{Numbered, Shot, Tile};
 use crate::look::{Background, EdgeStyle, Look, encode, linear};
 use crate::passes::{Pass, Passes, Trim};
 use crate::picture::{Pick, Picture, Seen};
 use crate::scene::{FaceKind, Scene};
-use crate::stage::{PieceKey, SEGMENTS, Stage};
+use crate::stage::{PieceKey, Stage};
 use crate::targets::{IdTargets, Target, Targets, depth_attachment, view_of};
 use crate::{Place, RenderError};
 
@@ -24,6 +25,7 @@ pub struct Renderer {
     scene: Scene,
     stage: Stage,
     passes: Passes,
+    emitter: Emitter,
     targets: Option<Targets>,
     statistics: FrameStatistics,
 }
@@ -75,6 +77,7 @@ impl Renderer {
             gpu: gpu.clone(),
             stage,
             passes: Passes::new(gpu),
+            emitter: Emitter::default(),
             scene,
             targets: None,
             statistics: FrameStatistics::default(),
@@ -105,7 +108,8 @@ impl Renderer {
     pub fn picture(&mut self, camera: &Camera, size: [u32; 2], look: &Look) -> Result<Picture, RenderError> {
         check(size)?;
         let start = Instant::now();
-        let visible = self.prepare(camera, size, look)?;
+        let (emission, _) = self.prepare(camera, size, look, false)?;
+        self.statistics.triangles = emission.triangles() as usize;
         let mut out = Picture {
             width: size[0],
             height: size[1],
@@ -117,7 +121,7 @@ impl Renderer {
             let mut sums = Vec::new();
             for round in 0..rounds {
                 tile.jitter = jitter(round, rounds);
-                let own = self.tile(camera, size, look, &visible, &tile, samples)?;
+                let own = self.tile(camera, size, look, &emission, &tile, samples)?;
                 if rounds == 1 {
                     out.paste(&own, tile.column, tile.row);
                 } else {
@@ -138,11 +142,11 @@ impl Renderer {
     /// A size that cannot be, and what the device refuses.
     pub fn seen(&mut self, camera: &Camera, size: [u32; 2], look: &Look) -> Result<Seen, RenderError> {
         check(size)?;
-        let visible = self.prepare(camera, size, look)?;
+        let (emission, faces) = self.prepare(camera, size, look, true)?;
         let count = size[0] as usize * size[1] as usize;
         let mut out = Seen { width: size[0], height: size[1], pixels: vec![None; count] };
         for tile in tiles(size) {
-            let (texels, faces) = self.identify(camera, size, look, &visible, &tile)?;
+            let texels = self.identify(camera, size, look, &emission, &tile)?;
             for (k, texel) in texels.into_iter().enumerate() {
                 let (x, y) = (k as u32 % tile.size[0], k as u32 / tile.size[0]);
                 let at = (tile.row + y) as usize * size[0] as usize + (tile.column + x) as usize;
@@ -167,16 +171,22 @@ impl Renderer {
         if column >= size[0] || row >= size[1] {
             return Ok(None);
         }
-        let visible = self.prepare(camera, size, look)?;
+        let (emission, faces) = self.prepare(camera, size, look, true)?;
         let tile = Tile { column, row, size: [1, 1], jitter: [0.0; 2] };
-        let (texels, faces) = self.identify(camera, size, look, &visible, &tile)?;
+        let texels = self.identify(camera, size, look, &emission, &tile)?;
         let at = glam::DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
         Ok(pick_of(&self.scene, texels[0], &faces)
             .and_then(|pick| Place::new(&self.scene, &pick, camera.ray(at, size))))
     }
 
-    /// Evaluates what the picture needs.
-    fn prepare(&mut self, camera: &Camera, size: [u32; 2], look: &Look) -> Result<Vec<Visible>, RenderError> {
+    /// Evaluates what the picture needs, and brings the list of it to the device; the faces that its numbers stand for.
+    fn prepare(
+        &mut self,
+        camera: &Camera,
+        size: [u32; 2],
+        look: &Look,
+        is_solid: bool,
+    ) -> Result<(Emission, Vec<Numbered>), RenderError> {
         let start = Instant::now();
         let shot = Shot { scene: &self.scene, camera, look, size };
         let visible = shot.visible();
@@ -197,7 +207,11 @@ impl Renderer {
             bytes: self.stage.bytes(),
             ..FrameStatistics::default()
         };
-        Ok(visible)
+        let shot = Shot { scene: &self.scene, camera, look, size };
+        let lists = shot.lists(&self.stage, &visible, is_solid);
+        let emission =
+            self.gpu.scoped("list the faces in the picture", || Emission::new(&self.gpu, &lists))?;
+        Ok((emission, lists.faces))
     }
 
     /// Draws a tile and reads it back.
@@ -206,7 +220,7 @@ impl Renderer {
         camera: &Camera,
         size: [u32; 2],
         look: &Look,
-        visible: &[Visible],
+        emission: &Emission,
         tile: &Tile,
         samples: u32,
     ) -> Result<Picture, RenderError> {
@@ -214,16 +228,16 @@ impl Renderer {
         let gpu = self.gpu.clone();
         let rgba = read_back(&gpu, &name, tile.size, 4, || {
             let shot = Shot { scene: &self.scene, camera, look, size };
-            let lists = shot.lists(&self.stage, visible, tile, false);
-            self.statistics.triangles += lists.indices.len() / 3;
             let is_fit = |t: &Targets| t.size == tile.size && t.samples == samples;
             if !self.targets.as_ref().is_some_and(is_fit) {
                 self.targets = Some(Targets::new(&gpu, tile.size, samples));
             }
-            let bound = Bound::new(&gpu, &self.passes, &self.stage, &shot, &lists, tile);
+            let bound = Bound::new(&gpu, &self.passes, &self.stage, &shot, emission, tile);
             let mut encoder = gpu.device().create_command_encoder(&Default::default());
+            let cells = self.stage.cells.buffer();
+            self.emitter.encode(&gpu, &mut encoder, emission, cells, &shot.bounds(tile));
             if let Some(targets) = &self.targets {
-                draw(&gpu, &mut encoder, &mut self.passes, targets, &lists, &bound, look, samples);
+                draw(&gpu, &mut encoder, &mut self.passes, targets, &bound, look, samples);
                 compose(&gpu, &mut encoder, &mut self.passes, targets, &shot, tile);
                 return Ok((encoder, targets.picture.clone()));
             }
@@ -232,24 +246,24 @@ impl Renderer {
         Ok(Picture { width: tile.size[0], height: tile.size[1], rgba })
     }
 
-    /// What the pixels of a tile show, and the faces that their numbers stand for.
+    /// What the pixels of a tile show.
     fn identify(
         &mut self,
         camera: &Camera,
         size: [u32; 2],
         look: &Look,
-        visible: &[Visible],
+        emission: &Emission,
         tile: &Tile,
-    ) -> Result<(Vec<[u32; 4]>, Vec<Numbered>), RenderError> {
+    ) -> Result<Vec<[u32; 4]>, RenderError> {
         let shot = Shot { scene: &self.scene, camera, look, size };
-        let lists = shot.lists(&self.stage, visible, tile, true);
         let gpu = self.gpu.clone();
-        let passes = &mut self.passes;
+        let (passes, emitter) = (&mut self.passes, &mut self.emitter);
         let stage = &self.stage;
         let bytes = read_back(&gpu, "identify pixels", tile.size, 16, || {
             let targets = IdTargets::new(&gpu, tile.size);
-            let bound = Bound::new(&gpu, passes, stage, &shot, &lists, tile);
+            let bound = Bound::new(&gpu, passes, stage, &shot, emission, tile);
             let mut encoder = gpu.device().create_command_encoder(&Default::default());
+            emitter.encode(&gpu, &mut encoder, emission, stage.cells.buffer(), &shot.bounds(tile));
             let view = view_of(&targets.ids);
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("identify"),
@@ -267,23 +281,15 @@ impl Renderer {
             });
             bound.trims(&mut pass);
             for (k, trim) in [(0, Trim::None), (1, trim_of(look))] {
-                bound.faces(&gpu, &mut pass, passes, Pass::Identify(trim), 1, &lists, k);
+                bound.faces(&gpu, &mut pass, passes, Pass::Identify(trim), 1, k);
             }
-            bound.strips(
-                &gpu,
-                &mut pass,
-                passes,
-                Pass::IdentifyBorder,
-                1,
-                &bound.borders,
-                lists.borders.len(),
-            );
+            bound.strips(&gpu, &mut pass, passes, Pass::IdentifyBorder, 1, Strips::Borders);
             drop(pass);
             Ok((encoder, targets.ids))
         })?;
         let texel =
             |b: &[u8]| [0, 4, 8, 12].map(|k| u32::from_ne_bytes([b[k], b[k + 1], b[k + 2], b[k + 3]]));
-        Ok((bytes.chunks_exact(16).map(texel).collect(), lists.faces))
+        Ok(bytes.chunks_exact(16).map(texel).collect())
     }
 }
 
@@ -362,32 +368,29 @@ fn averaged(sums: &[[f32; 4]], [width, height]: [u32; 2], rounds: u32) -> Pictur
     Picture { width, height, rgba: sums.iter().flat_map(pixel).collect() }
 }
 
-/// The bind groups and buffers of a tile.
-struct Bound {
+/// The bind groups of a tile, and what tells its draw calls how much to draw.
+struct Bound<'a> {
     trims: wgpu::BindGroup,
     faces: wgpu::BindGroup,
-    borders: wgpu::BindGroup,
-    edges: wgpu::BindGroup,
-    lines: wgpu::BindGroup,
-    indices: wgpu::Buffer,
+    strips: wgpu::BindGroup,
+    emission: &'a Emission,
 }
 
-impl Bound {
-    fn new(gpu: &Gpu, passes: &Passes, stage: &Stage, shot: &Shot<'_>, lists: &Lists, tile: &Tile) -> Self {
+impl<'a> Bound<'a> {
+    fn new(
+        gpu: &Gpu,
+        passes: &Passes,
+        stage: &Stage,
+        shot: &Shot<'_>,
+        emission: &'a Emission,
+        tile: &Tile,
+    ) -> Self {
         let device = gpu.device();
-        let upload = |label: &str, bytes: &[u8], usage| {
-            // Nothing cannot be bound.
-            let mut bytes = bytes.to_vec();
-            bytes.resize(bytes.len().max(96), 0);
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(label),
-                contents: &bytes,
-                usage,
-            })
-        };
-        let storage = wgpu::BufferUsages::STORAGE;
-        let view = upload("view", bytemuck::bytes_of(&shot.view(tile)), wgpu::BufferUsages::UNIFORM);
-        let items = upload("items", bytemuck::cast_slice(&lists.items), storage);
+        let view = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("view"),
+            contents: bytemuck::bytes_of(&shot.view(tile)),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
         let group = |layout: &wgpu::BindGroupLayout, buffers: &[&wgpu::Buffer]| {
             let entries: Vec<wgpu::BindGroupEntry<'_>> = (0u32..)
                 .zip(buffers)
@@ -395,27 +398,22 @@ impl Bound {
                 .collect();
             device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
         };
-        let frame = |blocks: &[[u32; 2]], vertices: &wgpu::Buffer| {
-            let blocks = upload("blocks", bytemuck::cast_slice(blocks), storage);
-            group(&passes.frame, &[&view, &items, &blocks, vertices])
+        let frame = |blocks: &wgpu::Buffer, vertices: &wgpu::Buffer| {
+            group(&passes.frame, &[&view, &emission.items, blocks, vertices])
         };
-        let segments = stage.segments.buffer();
         Self {
             trims: group(&passes.trims, &stage.trims.buffers()),
-            faces: frame(&lists.blocks, stage.vertices.buffer()),
-            borders: frame(&lists.borders, segments),
-            edges: frame(&lists.edges, segments),
-            lines: frame(&lists.lines, segments),
-            indices: upload("indices", bytemuck::cast_slice(&lists.indices), wgpu::BufferUsages::INDEX),
+            faces: frame(&emission.blocks, stage.vertices.buffer()),
+            strips: frame(&emission.strips, stage.segments.buffer()),
+            emission,
         }
     }
 
     fn trims(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.set_bind_group(0, &self.trims, &[]);
-        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.set_index_buffer(self.emission.indices.slice(..), wgpu::IndexFormat::Uint32);
     }
 
-    #[expect(clippy::too_many_arguments, reason = "what a draw call depends on")]
     fn faces(
         &self,
         gpu: &Gpu,
@@ -423,17 +421,15 @@ impl Bound {
         passes: &mut Passes,
         which: Pass,
         samples: u32,
-        lists: &Lists,
         range: usize,
     ) {
-        if !lists.ranges[range].is_empty() {
+        if let Some(offset) = self.emission.range(range) {
             pass.set_pipeline(&passes.get(gpu, which, samples));
             pass.set_bind_group(1, &self.faces, &[]);
-            pass.draw_indexed(lists.ranges[range].clone(), 0, 0..1);
+            pass.draw_indexed_indirect(&self.emission.arguments, offset);
         }
     }
 
-    #[expect(clippy::too_many_arguments, reason = "what a draw call depends on")]
     fn strips(
         &self,
         gpu: &Gpu,
@@ -441,25 +437,22 @@ impl Bound {
         passes: &mut Passes,
         which: Pass,
         samples: u32,
-        group: &wgpu::BindGroup,
-        blocks: usize,
+        strips: Strips,
     ) {
-        if blocks > 0 {
+        if let Some(offset) = self.emission.list(strips) {
             pass.set_pipeline(&passes.get(gpu, which, samples));
-            pass.set_bind_group(1, group, &[]);
-            pass.draw(0..(blocks * SEGMENTS * 6) as u32, 0..1);
+            pass.set_bind_group(1, &self.strips, &[]);
+            pass.draw_indirect(&self.emission.arguments, offset);
         }
     }
 }
 
-#[expect(clippy::too_many_arguments, reason = "what the passes of a picture depend on")]
 fn draw(
     gpu: &Gpu,
     encoder: &mut wgpu::CommandEncoder,
     passes: &mut Passes,
     targets: &Targets,
-    lists: &Lists,
-    bound: &Bound,
+    bound: &Bound<'_>,
     look: &Look,
     samples: u32,
 ) {
@@ -471,9 +464,9 @@ fn draw(
     });
     bound.trims(&mut pass);
     for (k, trim) in [(0, Trim::None), (1, trim_of(look))] {
-        bound.faces(gpu, &mut pass, passes, Pass::Surface(trim), samples, lists, k);
+        bound.faces(gpu, &mut pass, passes, Pass::Surface(trim), samples, k);
     }
-    bound.strips(gpu, &mut pass, passes, Pass::Border, samples, &bound.borders, lists.borders.len());
+    bound.strips(gpu, &mut pass, passes, Pass::Border, samples, Strips::Borders);
     let edges = [Pass::HiddenEdge, Pass::Edge];
     let drawn = match look.edges {
         EdgeStyle::None => &edges[..0],
@@ -481,9 +474,9 @@ fn draw(
         EdgeStyle::Hidden => &edges[..],
     };
     for &which in drawn {
-        bound.strips(gpu, &mut pass, passes, which, samples, &bound.edges, lists.edges.len());
+        bound.strips(gpu, &mut pass, passes, which, samples, Strips::Edges);
     }
-    bound.strips(gpu, &mut pass, passes, Pass::Line, samples, &bound.lines, lists.lines.len());
+    bound.strips(gpu, &mut pass, passes, Pass::Line, samples, Strips::Lines);
     drop(pass);
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("transparent"),
@@ -493,7 +486,7 @@ fn draw(
     });
     bound.trims(&mut pass);
     for (k, trim) in [(2, Trim::None), (3, trim_of(look))] {
-        bound.faces(gpu, &mut pass, passes, Pass::Veil(trim), samples, lists, k);
+        bound.faces(gpu, &mut pass, passes, Pass::Veil(trim), samples, k);
     }
 }
 

@@ -12,7 +12,7 @@ use trimloop_gpu::{
 
 use crate::arena::Arena;
 use crate::border::{EdgeCurve, Segment, border_of, segments_of};
-use crate::grid::{Grid, LONGEST, MOST_CELLS, Triangulated};
+use crate::grid::{Cells, Grid, LONGEST, MOST_CELLS};
 use crate::hierarchy::{APPROXIMATION, Hierarchy};
 use crate::lod::Lod;
 use crate::scene::{FaceKind, Scene, SceneFace, Triangles};
@@ -42,6 +42,8 @@ pub(crate) struct Stage {
     pub vertices: Arena<[Vec4; 2]>,
     /// Four vectors per segment, in blocks.
     pub segments: Arena<[Vec4; 4]>,
+    /// Numbers of cells.
+    pub cells: Arena<u32>,
     /// By part and face.
     pub faces: Vec<Vec<StagedFace>>,
     /// By part: the free curves, relative to their middle.
@@ -76,6 +78,15 @@ pub(crate) struct StagedCurve {
 pub(crate) struct Strip {
     pub first: u32,
     pub blocks: u32,
+}
+
+/// Numbers of cells: those inside, then those that are trimmed (see `Cells`).
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CellList {
+    pub columns: u32,
+    pub first: u32,
+    pub whole: u32,
+    pub part: u32,
 }
 
 /// A face at a level of detail: within 2^level millimetres.
@@ -136,7 +147,7 @@ pub(crate) struct Piece {
     pub mask: u32,
     pub first_vertex: u32,
     pub blocks: u32,
-    pub triangles: Triangulated,
+    pub cells: CellList,
     /// Its boundary; of edges, the edges.
     pub strip: Strip,
 }
@@ -148,7 +159,7 @@ struct Draft<'a> {
     face: Option<&'a SurfaceFace>,
     /// What is evaluated at which shares of the domain.
     grid: Option<Grid>,
-    triangles: Triangulated,
+    cells: Cells,
     strip: Vec<[Vec4; 4]>,
 }
 
@@ -210,6 +221,7 @@ impl Stage {
             trims: Trims::new(gpu),
             vertices: Arena::new(gpu, "vertices", none),
             segments: Arena::new(gpu, "segments", none),
+            cells: Arena::new(gpu, "cells", none),
             faces: Vec::new(),
             curves: Vec::new(),
             pieces: FxHashMap::default(),
@@ -247,7 +259,7 @@ impl Stage {
 
     /// Bytes that the device holds for the scene.
     pub fn bytes(&self) -> u64 {
-        self.trims.bytes() + self.vertices.bytes() + self.segments.bytes()
+        self.trims.bytes() + self.vertices.bytes() + self.segments.bytes() + self.cells.bytes()
     }
 
     fn add_strip(&mut self, gpu: &Gpu, packed: &[[Vec4; 4]]) -> Result<Strip, GpuError> {
@@ -258,6 +270,14 @@ impl Stage {
         Ok(Strip { first, blocks: (packed.len() / SEGMENTS) as u32 })
     }
 
+    fn add_cells(&mut self, gpu: &Gpu, cells: &Cells) -> Result<CellList, GpuError> {
+        let first = self.cells.take(gpu, cells.whole.len() + cells.part.len())?;
+        self.cells.write(gpu, first, &cells.whole);
+        self.cells.write(gpu, first + cells.whole.len(), &cells.part);
+        let [whole, part] = [&cells.whole, &cells.part].map(|list| list.len() as u32);
+        Ok(CellList { columns: cells.columns, first: first as u32, whole, part })
+    }
+
     fn add_triangles(&mut self, gpu: &Gpu, own: &Triangles) -> Result<Piece, GpuError> {
         let vertices = own.positions.iter().zip(&own.normals);
         let mut packed: Vec<[Vec4; 2]> =
@@ -266,8 +286,8 @@ impl Stage {
         let first = self.vertices.add(gpu, &packed)? as u32;
         let whole = own.triangles.iter().flatten().copied().collect();
         let blocks = (packed.len() / VERTICES) as u32;
-        let triangles = Triangulated { whole, part: Vec::new() };
-        Ok(Piece { first_vertex: first, blocks, triangles, ..Piece::default() })
+        let cells = self.add_cells(gpu, &Cells { whole, ..Cells::default() })?;
+        Ok(Piece { first_vertex: first, blocks, cells, ..Piece::default() })
     }
 
     /// A face at a level, once it is evaluated.
@@ -347,14 +367,15 @@ impl Stage {
         let mut masks = self.masks(gpu, &drafts)?;
         for (draft, first) in drafts.into_iter().zip(firsts) {
             let strip = self.add_strip(gpu, &draft.strip)?;
-            let Draft { key, origin, triangles, face, grid, .. } = draft;
+            let cells = self.add_cells(gpu, &draft.cells)?;
+            let Draft { key, origin, face, grid, .. } = draft;
             let blocks = grid.as_ref().map_or(0, |grid| grid.len().div_ceil(VERTICES)) as u32;
             let (trim, mask) = match (face, masks.remove(&key)) {
                 (_, Some(mask)) => mask,
                 (Some(face), None) if !key.lod.has_masks() => (self.table(gpu, &key, face)?, 0),
                 _ => (0, 0),
             };
-            let piece = Piece { origin, trim, mask, first_vertex: first as u32, blocks, triangles, strip };
+            let piece = Piece { origin, trim, mask, first_vertex: first as u32, blocks, cells, strip };
             self.pieces.insert(key, piece);
         }
         Ok(())
@@ -462,7 +483,7 @@ impl Stage {
                 mask: 0,
                 first_vertex: first as u32,
                 blocks: grid.len().div_ceil(VERTICES) as u32,
-                triangles: grid.triangulate(face),
+                cells: self.add_cells(gpu, &grid.cells(face))?,
                 strip: self.add_strip(gpu, &packed)?,
             };
             self.pieces.insert(*key, piece);
@@ -542,6 +563,8 @@ impl Stage {
                     self.trims.masks.give_back(piece.trim as usize, texels / 32);
                 }
                 self.vertices.give_back(piece.first_vertex as usize, piece.blocks as usize * VERTICES);
+                self.cells
+                    .give_back(piece.cells.first as usize, (piece.cells.whole + piece.cells.part) as usize);
                 self.segments.give_back(piece.strip.first as usize, piece.strip.blocks as usize * SEGMENTS);
             }
         }
@@ -555,8 +578,7 @@ impl<'a> Draft<'a> {
             let edge = |edge: &EdgeCurve| chords(&edge.sample(STRIPS * off_mm));
             let edges: Vec<Segment> = face.edges.iter().flat_map(edge).collect();
             let strip = packed(&edges, origin, None);
-            let triangles = Triangulated::default();
-            return Some(Self { key, origin, face: None, grid: None, triangles, strip });
+            return Some(Self { key, origin, face: None, grid: None, cells: Cells::default(), strip });
         }
         let FaceKind::Surface(whole) = &face.kind else { return None };
         if let (Lod::BezierHierarchy, Some(hierarchy)) = (key.lod, whole.hierarchy()) {
@@ -568,9 +590,9 @@ impl<'a> Draft<'a> {
             Lod::Adaptive => Grid::new(surface, off_mm),
             _ => Grid::even(surface, off_mm),
         };
-        let triangles = grid.triangulate(surface);
+        let cells = grid.cells(surface);
         let strip = packed(&border_of(surface, STRIPS * off_mm), origin, Some(surface));
-        Some(Self { key, origin, face: Some(surface), grid: Some(grid), triangles, strip })
+        Some(Self { key, origin, face: Some(surface), grid: Some(grid), cells, strip })
     }
 
     /// A patch, or the boundary.
@@ -581,7 +603,7 @@ impl<'a> Draft<'a> {
             origin: face.shape.origin(),
             face: Some(face),
             grid: None,
-            triangles: Triangulated::default(),
+            cells: Cells::default(),
             strip: Vec::new(),
         };
         if !key.is_patch() {
@@ -596,7 +618,7 @@ impl<'a> Draft<'a> {
         draft.origin = origin;
         let [low, high] = [[us[0], vs[0]], [us[us.len() - 1], vs[vs.len() - 1]]].map(DVec2::from);
         let grid = Grid { lines: [us, vs] };
-        draft.triangles = grid.triangulate(face);
+        draft.cells = grid.cells(face);
         draft.grid = Some(grid);
         let sides = face.sides(low, high, SIDE_PIECES);
         draft.strip = packed(&segments_of(face, sides.iter(), STRIPS * off_mm), origin, Some(face));
