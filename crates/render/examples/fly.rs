@@ -1,4 +1,5 @@
-//! A flight around and into a model with each strategy: what a frame takes, and what it evaluates.
+//! A flight around and into a model with each strategy: what a frame takes, and what it evaluates. `choose` is what choosing
+//! levels of detail takes, evaluating included.
 //!
 //! `cargo run --release -p trimloop-render --example fly -- FILE... [--size WxH] [--instances N]`
 //!
@@ -30,13 +31,14 @@ fn main() -> anyhow::Result<()> {
     let gpu = Gpu::headless()?;
     println!("{}; {} x {} pixels, {FRAMES} frames", gpu.name(), size[0], size[1]);
     println!(
-        "{:32} {:14} {:>8} {:>9} {:>9} {:>9} {:>11} {:>11} {:>9} {:>10}",
+        "{:32} {:16} {:>8} {:>9} {:>9} {:>9} {:>9} {:>11} {:>12} {:>9} {:>10}",
         "file",
         "strategy",
         "faces",
         "first ms",
         "mean ms",
         "worst ms",
+        "choose ms",
         "points 1st",
         "points/frame",
         "triangles",
@@ -53,7 +55,7 @@ fn main() -> anyhow::Result<()> {
             let mut renderer = Renderer::new(&gpu, scene)?;
             let look = Look { lod, ..Look::default() };
             let mut times = Vec::new();
-            let (mut first, mut evaluated, mut triangles) = (0, 0, 0);
+            let (mut first, mut evaluated, mut triangles, mut chosen) = (0, 0, 0, 0.0);
             for frame in 0..FRAMES {
                 let share = f64::from(frame) / f64::from(FRAMES);
                 let direction =
@@ -72,6 +74,7 @@ fn main() -> anyhow::Result<()> {
                     first = statistics.evaluated;
                 } else {
                     evaluated += statistics.evaluated;
+                    chosen += statistics.evaluate_s * 1e3;
                 }
                 times.push(statistics.total_s * 1e3);
                 triangles = triangles.max(statistics.triangles);
@@ -79,12 +82,13 @@ fn main() -> anyhow::Result<()> {
             let later = &times[1..];
             let name: String = file.chars().rev().take(32).collect::<Vec<_>>().into_iter().rev().collect();
             println!(
-                "{name:32} {:14} {:>8} {:>9.1} {:>9.1} {:>9.1} {:>11} {:>11} {:>9} {:>10.1}",
+                "{name:32} {:16} {:>8} {:>9.1} {:>9.1} {:>9.1} {:>9.2} {:>11} {:>12} {:>9} {:>10.1}",
                 lod.name(),
                 unique * (side * side) as usize,
                 times[0],
                 later.iter().sum::<f64>() / later.len() as f64,
                 later.iter().copied().fold(0.0, f64::max),
+                chosen / later.len() as f64,
                 first,
                 evaluated / (FRAMES as usize - 1),
                 triangles,

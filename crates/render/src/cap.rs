@@ -58,7 +58,8 @@ impl Scene {
         if faces.is_empty() {
             return Ok(*section);
         }
-        let outline = faces.iter().flat_map(SceneFace::outline).collect();
+        let outline: Vec<DVec3> = faces.iter().flat_map(SceneFace::outline).collect();
+        let bounds = Aabb::from_points(outline.iter().copied());
         let name = "section".to_owned();
         self.instances.push(Instance {
             part: self.parts.len(),
@@ -67,7 +68,7 @@ impl Scene {
             color: None,
             is_shown: true,
         });
-        self.parts.push(ScenePart { name, faces, curves: Vec::new(), outline });
+        self.parts.push(ScenePart { name, faces, curves: Vec::new(), outline, bounds });
         Ok(*section)
     }
 }

@@ -179,12 +179,9 @@ impl Shot<'_> {
         let face = &self.scene.parts[placed_in.part].faces[key.face as usize];
         let own = stage.piece(&key)?;
         // The patches of a hierarchy share the trim texture of the whole.
-        let (trimmed, tile) = match key.lod == Lod::BezierHierarchy && key.tile > PieceKey::WHOLE {
-            true => {
-                let whole = PieceKey { tile: PieceKey::WHOLE, level: trim_level, ..key };
-                (stage.piece(&whole)?, PieceKey::WHOLE)
-            }
-            false => (own, key.tile),
+        let trimmed = match key.is_patch() {
+            true => stage.piece(&PieceKey { tile: PieceKey::WHOLE, level: trim_level, ..key })?,
+            false => own,
         };
         let color = self.color(placed_in, face);
         let item = placed.item(own.origin, color, trimmed.trim, placed_in.node.is_none());
@@ -213,7 +210,7 @@ impl Shot<'_> {
         };
         // What is cut away elsewhere is kept where it closes the cut.
         let radius = if placed_in.node.is_none() { f32::MAX } else { draw.radius };
-        Some((item, Draw { radius, ..draw }, Numbered { instance, face: key.face, tile }))
+        Some((item, Draw { radius, ..draw }, Numbered { instance, face: key.face, tile: key.part_of_face() }))
     }
 
     fn add_curves(&self, stage: &Stage, places: &[Placed], lists: &mut Lists) {
@@ -316,8 +313,7 @@ impl Shot<'_> {
         for instance in self.scene.instances.iter().filter(|i| i.is_shown) {
             let placed = Placed::new(self.camera, &instance.transform);
             let part = &self.scene.parts[instance.part];
-            let corners = trimloop_geom::Aabb::from_points(part.outline.iter().copied()).corners();
-            for corner in corners.into_iter().filter(|c| c.is_finite()) {
+            for corner in part.bounds.corners().into_iter().filter(|c| c.is_finite()) {
                 let z = placed.point(corner).z;
                 (low, high) = (low.min(z), high.max(z));
             }
@@ -338,6 +334,9 @@ impl Shot<'_> {
 fn level_of(allowed_mm: f64) -> i32 {
     allowed_mm.log2().floor().clamp(-60.0, 60.0) as i32
 }
+
+/// Gaps of less than this share of what faces may be off are left to borders.
+const NARROW: f64 = 0.5;
 
 /// Looks for the parts of a face that are in the picture.
 struct Seek<'a> {
@@ -377,6 +376,7 @@ impl Seek<'_> {
         let is_fine = u.max(v) <= MOST_CELLS || depth >= DEEPEST;
         if is_fine || key.lod != Lod::Adaptive {
             out.push(visible);
+            self.skirt(face, visible, out);
             return;
         }
         for (k, half) in (0u64..).zip(face.halves()) {
@@ -406,6 +406,16 @@ impl Seek<'_> {
                 out[first + 1..].iter_mut().for_each(|v| v.trim_level = finest);
             }
             None => out.truncate(first),
+        }
+        if let Some(whole) = out.get(first).copied() {
+            self.skirt(face, whole, out);
+        }
+    }
+
+    /// What closes a gap between the face and its edges that would be seen.
+    fn skirt(&self, face: &SurfaceFace, of: Visible, out: &mut Vec<Visible>) {
+        if face.gap_mm > NARROW * f64::from(of.key.level).exp2() {
+            out.push(Visible { key: of.key.skirt(), ..of });
         }
     }
 

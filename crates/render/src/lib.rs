@@ -37,6 +37,7 @@ mod proof;
 mod renderer;
 mod scene;
 mod sheet;
+mod skirt;
 mod stage;
 mod surface_face;
 mod targets;

@@ -7,9 +7,10 @@ use trimloop_geom::Aabb;
 use trimloop_gpu::{FaceShapes, TrimTable};
 use trimloop_mesh::{FaceStatus, MeshOptions, Monitor};
 use trimloop_trim::Tolerance;
-use trimloop_trim::curves::trim_curves;
+use trimloop_trim::curves::{Cubic, trim_curves_of_edges};
 
 use crate::border::{EdgeCurve, edges_of};
+use crate::skirt::skirts_of;
 use crate::surface_face::SurfaceFace;
 
 /// A model made ready to be drawn.
@@ -34,6 +35,8 @@ pub struct ScenePart {
     pub curves: Vec<(Vec<DVec3>, Option<Rgba>)>,
     /// Points of its boundary and of its surfaces, close enough to tell what a picture must hold.
     pub outline: Vec<DVec3>,
+    /// The box of those points.
+    pub bounds: Aabb,
 }
 
 /// A face made ready to be drawn.
@@ -195,7 +198,8 @@ impl ScenePart {
         let mut outline: Vec<DVec3> = shown.flat_map(SceneFace::outline).collect();
         outline.extend(curves.iter().flat_map(|(points, _)| points));
         let name = if part.name.is_empty() { part.id.clone() } else { part.name.clone() };
-        Ok((Self { name, faces, curves, outline }, diagnostics))
+        let bounds = Aabb::from_points(outline.iter().copied());
+        Ok((Self { name, faces, curves, outline, bounds }, diagnostics))
     }
 }
 
@@ -220,13 +224,16 @@ impl SceneFace {
         if !found.shape.is_nurbs() {
             return out;
         }
-        let chains = trim_curves(part, index, samples, &found.domain, TRIM_FINENESS);
+        let curves = trim_curves_of_edges(part, index, samples, &found.domain, TRIM_FINENESS);
+        let skirts = skirts_of(part, &found.shape, &curves);
+        let chains: Vec<Vec<Cubic>> =
+            curves.into_iter().map(|chain| chain.into_iter().map(|curve| curve.cubic).collect()).collect();
         let [u, v] = found.shape.domain();
         let (low, high) = (glam::DVec2::new(u.start, v.start), glam::DVec2::new(u.end, v.end));
         let Ok(table) = TrimTable::within(&chains, TRIM_CELLS, low, high) else { return out };
         let Some(surface) = SurfaceFace::new(found, chains, table) else { return out };
         out.sphere = surface.sphere();
-        out.kind = FaceKind::Surface(Box::new(surface));
+        out.kind = FaceKind::Surface(Box::new(surface.with_skirts(skirts)));
         out
     }
 

@@ -9,6 +9,7 @@ use trimloop_gpu::{
     CHANNELS, DevicePyramid, Evaluator, Gpu, GpuError, PatchGrid, PatchRequest, PatchTree, Places,
     Quantities, Request, TrimFans, TrimHeader, TrimTable, Wavelet, evaluate_patches, trim_masks,
 };
+use trimloop_trim::curves::Cubic;
 
 use crate::arena::Arena;
 use crate::border::{EdgeCurve, Segment, border_of, segments_of};
@@ -16,6 +17,7 @@ use crate::grid::{Cells, Grid, LONGEST, MOST_CELLS};
 use crate::hierarchy::{APPROXIMATION, Hierarchy};
 use crate::lod::Lod;
 use crate::scene::{FaceKind, Scene, SceneFace, Triangles};
+use crate::skirt::ribbon_of;
 use crate::surface_face::SurfaceFace;
 
 /// Chords of boundaries and edges may be off by this share of what faces may.
@@ -105,6 +107,21 @@ impl PieceKey {
     /// The whole of a face.
     pub const WHOLE: u64 = 1;
     const PATCHES: u64 = 2;
+    const SKIRT: u64 = 1 << 63;
+
+    /// The skirt of the part of a face that it stands for.
+    pub fn skirt(self) -> Self {
+        Self { tile: self.tile | Self::SKIRT, ..self }
+    }
+
+    pub fn is_skirt(&self) -> bool {
+        self.tile & Self::SKIRT != 0
+    }
+
+    /// The part of the face that shares in it are of.
+    pub fn part_of_face(&self) -> u64 {
+        if self.lod == Lod::BezierHierarchy { Self::WHOLE } else { self.tile & !Self::SKIRT }
+    }
 
     /// The number of a patch of a hierarchy.
     pub fn patch(node: usize) -> u64 {
@@ -117,7 +134,7 @@ impl PieceKey {
     }
 
     pub fn is_patch(&self) -> bool {
-        self.lod == Lod::BezierHierarchy && self.tile >= Self::PATCHES
+        self.lod == Lod::BezierHierarchy && self.tile >= Self::PATCHES && !self.is_skirt()
     }
 
     /// How far off the piece may be.
@@ -161,6 +178,8 @@ struct Draft<'a> {
     grid: Option<Grid>,
     cells: Cells,
     strip: Vec<[Vec4; 4]>,
+    /// Vertices that are not evaluated on the device.
+    vertices: Vec<[Vec4; 2]>,
 }
 
 /// The trim tables of all faces, behind each other.
@@ -309,8 +328,9 @@ impl Stage {
         wanted.retain(|key| !self.pieces.contains_key(key));
         wanted.sort_unstable_by_key(|key| (key.part, key.face, key.tile, key.level));
         wanted.dedup();
-        let (leveled, wanted): (Vec<PieceKey>, Vec<PieceKey>) =
-            wanted.into_iter().partition(|key| key.tile > 0 && key.lod.wavelet().is_some());
+        let (leveled, wanted): (Vec<PieceKey>, Vec<PieceKey>) = wanted
+            .into_iter()
+            .partition(|key| key.tile > 0 && !key.is_skirt() && key.lod.wavelet().is_some());
         self.step_levels(gpu, evaluator, scene, &leveled)?;
         let staged = &self.faces;
         let drafts: Vec<Draft<'_>> = wanted
@@ -339,6 +359,9 @@ impl Stage {
             .collect();
         let mut firsts = vec![0; drafts.len()];
         for (first, draft) in firsts.iter_mut().zip(&drafts) {
+            if !draft.vertices.is_empty() {
+                *first = self.vertices.add(gpu, &draft.vertices)?;
+            }
             if let Some(grid) = &draft.grid {
                 *first = self.vertices.take(gpu, grid.len().next_multiple_of(VERTICES))?;
                 self.evaluated += grid.len();
@@ -369,10 +392,12 @@ impl Stage {
             let strip = self.add_strip(gpu, &draft.strip)?;
             let cells = self.add_cells(gpu, &draft.cells)?;
             let Draft { key, origin, face, grid, .. } = draft;
-            let blocks = grid.as_ref().map_or(0, |grid| grid.len().div_ceil(VERTICES)) as u32;
+            let blocks = grid.as_ref().map_or(draft.vertices.len(), Grid::len).div_ceil(VERTICES) as u32;
             let (trim, mask) = match (face, masks.remove(&key)) {
                 (_, Some(mask)) => mask,
-                (Some(face), None) if !key.lod.has_masks() => (self.table(gpu, &key, face)?, 0),
+                (Some(face), None) if !key.lod.has_masks() && !key.is_skirt() => {
+                    (self.table(gpu, &key, face)?, 0)
+                }
                 _ => (0, 0),
             };
             let piece = Piece { origin, trim, mask, first_vertex: first as u32, blocks, cells, strip };
@@ -525,7 +550,8 @@ impl Stage {
         drafts: &[Draft<'_>],
     ) -> Result<FxHashMap<PieceKey, (u32, u32)>, GpuError> {
         let mut by_size: BTreeMap<[u32; 2], Vec<(PieceKey, TrimFans)>> = BTreeMap::new();
-        for draft in drafts.iter().filter(|d| d.key.lod.has_masks() && !d.key.is_patch()) {
+        for draft in drafts.iter().filter(|d| d.key.lod.has_masks() && !d.key.is_patch() && !d.key.is_skirt())
+        {
             let Some(face) = draft.face.filter(|face| !face.is_whole()) else { continue };
             let texels = 0.5 / draft.key.off_mm();
             let side = |d: usize| {
@@ -578,9 +604,12 @@ impl<'a> Draft<'a> {
             let edge = |edge: &EdgeCurve| chords(&edge.sample(STRIPS * off_mm));
             let edges: Vec<Segment> = face.edges.iter().flat_map(edge).collect();
             let strip = packed(&edges, origin, None);
-            return Some(Self { key, origin, face: None, grid: None, cells: Cells::default(), strip });
+            return Some(Self { origin, strip, ..Self::empty(key) });
         }
         let FaceKind::Surface(whole) = &face.kind else { return None };
+        if key.is_skirt() {
+            return Some(Self::of_skirt(key, whole.tile(key.part_of_face())?));
+        }
         if let (Lod::BezierHierarchy, Some(hierarchy)) = (key.lod, whole.hierarchy()) {
             return Some(Self::of_hierarchy(key, whole, hierarchy));
         }
@@ -592,20 +621,40 @@ impl<'a> Draft<'a> {
         };
         let cells = grid.cells(surface);
         let strip = packed(&border_of(surface, STRIPS * off_mm), origin, Some(surface));
-        Some(Self { key, origin, face: Some(surface), grid: Some(grid), cells, strip })
+        Some(Self { origin, face: Some(surface), grid: Some(grid), cells, strip, ..Self::empty(key) })
+    }
+
+    fn empty(key: PieceKey) -> Self {
+        Self {
+            key,
+            origin: DVec3::ZERO,
+            face: None,
+            grid: None,
+            cells: Cells::default(),
+            strip: Vec::new(),
+            vertices: Vec::new(),
+        }
+    }
+
+    /// What closes the gap between a face and its edges.
+    fn of_skirt(key: PieceKey, face: &'a SurfaceFace) -> Self {
+        let origin = face.shape.origin();
+        let ribbon = ribbon_of(face, STRIPS * key.off_mm());
+        let vertex = |(p, uv): &(DVec3, DVec2)| {
+            let share = face.share(*uv).as_vec2();
+            [(*p - origin).as_vec3().extend(share.x), face.shape.normal(*uv).as_vec3().extend(share.y)]
+        };
+        let mut vertices: Vec<[Vec4; 2]> = ribbon.places.iter().map(vertex).collect();
+        vertices.resize(vertices.len().next_multiple_of(VERTICES), [Vec4::ZERO; 2]);
+        let strip = packed(&ribbon.edges, origin, Some(face));
+        let cells = Cells { whole: ribbon.triangles, ..Cells::default() };
+        Self { origin, face: Some(face), cells, strip, vertices, ..Self::empty(key) }
     }
 
     /// A patch, or the boundary.
     fn of_hierarchy(key: PieceKey, face: &'a SurfaceFace, hierarchy: &Hierarchy) -> Self {
         let off_mm = key.off_mm();
-        let mut draft = Self {
-            key,
-            origin: face.shape.origin(),
-            face: Some(face),
-            grid: None,
-            cells: Cells::default(),
-            strip: Vec::new(),
-        };
+        let mut draft = Self { origin: face.shape.origin(), face: Some(face), ..Self::empty(key) };
         if !key.is_patch() {
             draft.strip = packed(&border_of(face, STRIPS * off_mm), draft.origin, Some(face));
             return draft;
@@ -620,7 +669,13 @@ impl<'a> Draft<'a> {
         let grid = Grid { lines: [us, vs] };
         draft.cells = grid.cells(face);
         draft.grid = Some(grid);
-        let sides = face.sides(low, high, SIDE_PIECES);
+        // The boundary's own strip covers the sides of the domain.
+        let is_outer = |[a, .., b]: &Cubic| {
+            let (a, b) = (face.share(*a), face.share(*b));
+            (0..2).any(|d| a[d] == b[d] && (a[d] < 1e-9 || a[d] > 1.0 - 1e-9))
+        };
+        let mut sides = face.sides(low, high, SIDE_PIECES);
+        sides.retain(|side| !is_outer(side));
         draft.strip = packed(&segments_of(face, sides.iter(), STRIPS * off_mm), origin, Some(face));
         draft
     }

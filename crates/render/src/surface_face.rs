@@ -10,6 +10,7 @@ use trimloop_trim::curves::Cubic;
 
 use crate::grid::cells;
 use crate::hierarchy::Hierarchy;
+use crate::skirt::Skirt;
 
 /// A face that is evaluated on the device.
 #[derive(Debug)]
@@ -30,6 +31,9 @@ pub struct SurfaceFace {
     pub(crate) window: [DVec2; 2],
     halves: OnceLock<[Option<Box<SurfaceFace>>; 2]>,
     hierarchy: OnceLock<Option<Hierarchy>>,
+    /// Where the boundary is away from its edges, and how far at most, millimetres.
+    pub(crate) skirts: Arc<Vec<Skirt>>,
+    pub(crate) gap_mm: f64,
 }
 
 /// How large, and how far from straight, a surface is. Millimetres; derivatives are with respect to shares of the domain.
@@ -92,6 +96,8 @@ impl SurfaceFace {
             window,
             halves,
             hierarchy,
+            skirts: Arc::default(),
+            gap_mm: 0.0,
         })
     }
 
@@ -128,7 +134,20 @@ impl SurfaceFace {
         if !shape.is_nurbs() {
             return None;
         }
-        Self::of(shape, self.domain.clone(), chains, table, is_whole, window)
+        let mut half = Self::of(shape, self.domain.clone(), chains, table, is_whole, window)?;
+        let near: Vec<Skirt> = self.skirts.iter().filter(|s| s.is_near(&half)).cloned().collect();
+        if !near.is_empty() {
+            half.skirts = Arc::new(near);
+            half.gap_mm = self.gap_mm;
+        }
+        Some(half)
+    }
+
+    /// With skirts where the boundary is away from its edges.
+    pub(crate) fn with_skirts(mut self, (skirts, gap_mm): (Vec<Skirt>, f64)) -> Self {
+        self.skirts = Arc::new(skirts);
+        self.gap_mm = gap_mm;
+        self
     }
 
     /// Its trees of patches and trim curves, made at their first use; `None` where the surface has no NURBS form.

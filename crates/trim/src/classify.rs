@@ -36,10 +36,14 @@ struct Segment {
     reach: f64,
 }
 
-#[derive(Clone, Copy)]
-pub(crate) struct EdgePiece {
+/// A part of an edge, in the direction in which a loop runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgePiece {
+    /// Index of the edge in its part.
     pub edge: u32,
+    /// The parameter of its curve where the part begins.
     pub from: f64,
+    /// Where it ends; less than `from` where the loop runs against the curve.
     pub to: f64,
 }
 

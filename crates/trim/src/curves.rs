@@ -4,11 +4,21 @@ use glam::DVec2;
 use trimloop_brep::{FaceGeometry, FaceId, Part};
 use trimloop_geom::{Curve, Surface};
 
-use crate::classify::{EdgePiece, pieces_by_points};
+pub use crate::classify::EdgePiece;
+use crate::classify::pieces_by_points;
 use crate::{EdgeSamples, TrimDomain};
 
 /// A cubic Bézier curve in the parameter plane.
 pub type Cubic = [DVec2; 4];
+
+/// A cubic of a boundary, and the part of an edge whose feet it follows (none for cuts and poles).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrimCurve {
+    /// The cubic.
+    pub cubic: Cubic,
+    /// The part of an edge: at each share of the cubic, the foot of the curve's point at that share.
+    pub edge: Option<EdgePiece>,
+}
 
 /// Pieces are halved this often at most.
 const DEEPEST: u32 = 8;
@@ -24,6 +34,18 @@ pub fn trim_curves(
     domain: &TrimDomain,
     tolerance: f64,
 ) -> Vec<Vec<Cubic>> {
+    let chains = trim_curves_of_edges(part, face, samples, domain, tolerance);
+    chains.into_iter().map(|chain| chain.into_iter().map(|curve| curve.cubic).collect()).collect()
+}
+
+/// As [`trim_curves`], with the edges that the cubics follow.
+pub fn trim_curves_of_edges(
+    part: &Part,
+    face: FaceId,
+    samples: &EdgeSamples,
+    domain: &TrimDomain,
+    tolerance: f64,
+) -> Vec<Vec<TrimCurve>> {
     let FaceGeometry::Surface(surface) = &part.faces[face as usize].geometry else { return Vec::new() };
     let pieces = pieces_by_points(part, face, samples);
     let (low, high) = domain.uv_bounds();
@@ -38,7 +60,7 @@ pub fn trim_curves(
                     let fit = Fit { surface, curve, extent, tolerance };
                     fit.between([a.uv, b.uv], *piece, 0, &mut out);
                 }
-                None => out.push(straight(a.uv, b.uv)),
+                None => out.push(TrimCurve { cubic: straight(a.uv, b.uv), edge: None }),
             }
         }
         out
@@ -54,7 +76,7 @@ struct Fit<'a> {
 }
 
 impl Fit<'_> {
-    fn between(&self, ends: [DVec2; 2], piece: EdgePiece, depth: u32, out: &mut Vec<Cubic>) {
+    fn between(&self, ends: [DVec2; 2], piece: EdgePiece, depth: u32, out: &mut Vec<TrimCurve>) {
         let [a, b] = ends;
         let at = |share: f64| piece.from + (piece.to - piece.from) * share;
         let foot = |share: f64| {
@@ -63,7 +85,7 @@ impl Fit<'_> {
             (self.distance(uv, a.lerp(b, share)) <= 0.5 * self.distance(a, b)).then_some(uv)
         };
         let Some(middle) = foot(0.5) else {
-            out.push(straight(a, b));
+            out.push(TrimCurve { cubic: straight(a, b), edge: Some(piece) });
             return;
         };
         let length = piece.to - piece.from;
@@ -78,7 +100,7 @@ impl Fit<'_> {
         let fits = is_near(middle, 0.5)
             && [0.25, 0.75].into_iter().all(|share| foot(share).is_none_or(|uv| is_near(uv, share)));
         if fits || depth == DEEPEST {
-            out.push(cubic);
+            out.push(TrimCurve { cubic, edge: Some(piece) });
             return;
         }
         self.between([a, middle], EdgePiece { to: at(0.5), ..piece }, depth + 1, out);
@@ -152,7 +174,8 @@ fn roots(a: f64, b: f64, c: f64) -> impl Iterator<Item = f64> {
     found.into_iter().filter(|t| *t > 1e-9 && *t < 1.0 - 1e-9)
 }
 
-fn between(cubic: &Cubic, from: f64, to: f64) -> Cubic {
+/// The part of a cubic from share `from` to share `to`.
+pub fn between(cubic: &Cubic, from: f64, to: f64) -> Cubic {
     if from == 0.0 && to == 1.0 {
         return *cubic;
     }

@@ -1,9 +1,13 @@
 //! Every pixel shows what is within half a pixel of the exact model, and nothing is open.
 
-use trimloop_mesh::Silent;
-use trimloop_render::{CpuRenderer, Direction, Lod, Look, Projection, prove};
+use std::sync::Arc;
 
-use crate::{camera, model, renderer, scene};
+use trimloop_brep::{Face, FaceGeometry};
+use trimloop_geom::Surface;
+use trimloop_mesh::Silent;
+use trimloop_render::{CpuRenderer, Direction, Lod, Look, Projection, Renderer, prove};
+
+use crate::{GPU, camera, model, renderer, scene};
 
 const SIZE: [u32; 2] = [1280, 1024];
 const VIEWS: [Direction; 3] = [
@@ -140,6 +144,38 @@ fn hierarchies_draw_every_kind_of_surface_within_half_a_pixel() {
         let near = renderer.statistics().evaluated;
         prove(&mut renderer, None, &camera, SIZE, &look).expect("a picture");
         assert!(near > 0 && renderer.statistics().evaluated == 0, "{name}");
+    }
+}
+
+/// A face that floats above its edges, as sloppy files have them: nothing shows between it and its neighbours.
+#[test]
+fn a_gap_between_a_face_and_its_edges_is_closed() {
+    let Some(gpu) = GPU.as_ref() else { return };
+    let mut model = model("cadquery/box.step");
+    let size = scene(&model).bounds().diagonal();
+    let is_top = |face: &&mut Face| match &face.geometry {
+        FaceGeometry::Surface(surface) => {
+            matches!(&**surface, Surface::Plane { frame } if frame.z.z.abs() > 0.9 && frame.origin.z > 0.0)
+        }
+        _ => false,
+    };
+    let top = model.parts[0].faces.iter_mut().find(is_top).expect("a face on top");
+    if let FaceGeometry::Surface(surface) = &mut top.geometry
+        && let Surface::Plane { frame } = Arc::make_mut(surface)
+    {
+        frame.origin.z += 0.01 * size;
+    }
+    let reference = CpuRenderer::with_deflection(&model, scene(&model), 1e-4, &Silent).expect("meshed");
+    for lod in [Lod::Adaptive, Lod::BezierHierarchy] {
+        let mut renderer = Renderer::new(gpu, scene(&model)).expect("a renderer");
+        for direction in VIEWS {
+            let camera = camera(renderer.scene(), direction, SIZE);
+            let look = Look { lod, ..Look::default() };
+            let proof = prove(&mut renderer, Some(&reference), &camera, SIZE, &look).expect("a picture");
+            // What closes the gap belongs to points that are away from it.
+            assert!(proof.cracks == 0 && proof.spills == 0 && proof.covered > 100_000, "{lod:?} {proof:?}");
+            assert!(proof.off < proof.covered / 20, "{lod:?} {proof:?}");
+        }
     }
 }
 
