@@ -50,7 +50,7 @@ pub fn run(arguments: &RenderArguments) -> anyhow::Result<Outcome> {
         match drawn {
             Ok((outcome, picture)) => {
                 worst = worst.max(outcome);
-                sheet.extend(picture);
+                sheet.extend(picture.map(|picture| (label(input), picture)));
             }
             Err(_) if interrupt::requested() => return Ok(Outcome::Cancelled),
             Err(error) => {
@@ -260,6 +260,11 @@ impl Studio<'_> {
             ..standard
         }
     }
+}
+
+/// What a picture is called on a sheet.
+fn label(input: &Path) -> String {
+    input.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// Says what is wrong with the file; the outcome that it means.
