@@ -27,8 +27,8 @@ fn main() -> anyhow::Result<()> {
     let gpu = Gpu::headless()?;
     let mut failed = 0;
     println!(
-        "{:44} {:>5} {:>8} {:>9} {:>6} {:>6} {:>6} {:>8}",
-        "file", "view", "covered", "farthest", "off", "cracks", "spills", "unproved"
+        "{:44} {:>5} {:>8} {:>9} {:>6} {:>7} {:>6} {:>6} {:>8}",
+        "file", "view", "covered", "farthest", "off", "bridged", "cracks", "spills", "unproved"
     );
     for file in files {
         let mut model = trimloop_import::read(file.as_ref(), &ImportOptions::default())?;
@@ -66,10 +66,11 @@ fn main() -> anyhow::Result<()> {
             }
             let short: String = file.chars().rev().take(44).collect::<Vec<_>>().into_iter().rev().collect();
             println!(
-                "{short:44} {name:>5} {:>8} {:>9.3} {:>6} {:>6} {:>6} {:>8}{}",
+                "{short:44} {name:>5} {:>8} {:>9.3} {:>6} {:>7} {:>6} {:>6} {:>8}{}",
                 proof.covered,
                 proof.farthest_px,
                 proof.off,
+                proof.bridged,
                 proof.cracks,
                 proof.spills,
                 proof.unproved,

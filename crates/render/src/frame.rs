@@ -336,7 +336,7 @@ fn level_of(allowed_mm: f64) -> i32 {
 }
 
 /// Gaps of less than this share of what faces may be off are left to borders.
-const NARROW: f64 = 0.5;
+const NARROW: f64 = 1.0;
 
 /// Looks for the parts of a face that are in the picture.
 struct Seek<'a> {

@@ -16,6 +16,8 @@ pub struct Proof {
     pub farthest_px: f64,
     /// Pixels for which that is more than half a pixel.
     pub off: usize,
+    /// Likewise between a face and the edges that it shares, where the file leaves a gap that is bridged.
+    pub bridged: usize,
     /// Pixels that show the background, or something farther away, where the reference shows a face all around.
     pub cracks: usize,
     /// Pixels that show a face where the reference has nothing near it, or something in front.
@@ -65,8 +67,14 @@ pub fn prove(
         if let Some(point) = spot.point {
             proof.covered += 1;
             let off = camera.project(point, size).map_or(f64::INFINITY, |at| at.distance(middle));
-            proof.farthest_px = proof.farthest_px.max(off);
-            proof.off += usize::from(off > 0.5);
+            match off {
+                _ if off <= 0.5 => proof.farthest_px = proof.farthest_px.max(off),
+                _ if off <= 0.5 + spot.gap_mm / spot.pixel_mm(camera, size) => proof.bridged += 1,
+                _ => {
+                    proof.farthest_px = proof.farthest_px.max(off);
+                    proof.off += 1;
+                }
+            }
         } else if spot.is_covered {
             proof.covered += 1;
             proof.unproved += 1;
@@ -108,18 +116,37 @@ fn is_on_face(scene: &Scene, camera: &Camera, size: [u32; 2], pick: &Pick) -> bo
     })
 }
 
+fn gap_mm(scene: &Scene, pick: &Pick) -> f64 {
+    let instance = &scene.instances[pick.instance];
+    let FaceKind::Surface(face) = &scene.parts[instance.part].faces[pick.face].kind else { return 0.0 };
+    let m = instance.transform.matrix3;
+    face.gap_mm * m.x_axis.length().max(m.y_axis.length()).max(m.z_axis.length())
+}
+
 /// What a pixel shows.
 struct Spot {
     is_covered: bool,
     point: Option<glam::DVec3>,
     /// Infinite for the background.
     depth: f64,
+    /// How far the face is away from its edges, as it is drawn.
+    gap_mm: f64,
 }
 
 impl Spot {
     fn of(scene: &Scene, camera: &Camera, pick: &Option<Pick>) -> Self {
         let point = pick.as_ref().and_then(|pick| scene.point(pick));
         let depth = point.map_or(f64::INFINITY, |p| -camera.to_eye(p).z);
-        Self { is_covered: pick.is_some(), point, depth }
+        Self {
+            is_covered: pick.is_some(),
+            point,
+            depth,
+            gap_mm: pick.as_ref().map_or(0.0, |p| gap_mm(scene, p)),
+        }
+    }
+
+    /// Millimetres of a pixel there.
+    fn pixel_mm(&self, camera: &Camera, size: [u32; 2]) -> f64 {
+        camera.pixel(size[1]) * if camera.is_parallel() { 1.0 } else { self.depth }
     }
 }

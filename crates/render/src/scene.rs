@@ -175,12 +175,12 @@ impl ScenePart {
         let size = part_size(part);
         let tolerance = Tolerance { linear_mm: (size * FINENESS).max(1e-9), angular_rad: ANGLE_RAD };
         let shapes = FaceShapes::new(part, tolerance);
-        let owners = edge_owners(part, &shapes);
+        let edges = EdgeUse::new(part, &shapes);
         let make = |(index, shape): (usize, _)| {
             if monitor.cancelled() {
                 return Err(trimloop_mesh::Cancelled);
             }
-            let face = SceneFace::new(part, index as FaceId, shape, &shapes.samples, &owners);
+            let face = SceneFace::new(part, index as FaceId, shape, &shapes.samples, &edges);
             monitor.face_done();
             Ok(face)
         };
@@ -209,7 +209,7 @@ impl SceneFace {
         index: FaceId,
         shape: Result<trimloop_gpu::FaceShape, trimloop_trim::TrimError>,
         samples: &trimloop_trim::EdgeSamples,
-        owners: &[Option<FaceId>],
+        edges: &EdgeUse,
     ) -> Self {
         let face = &part.faces[index as usize];
         let mut out = Self {
@@ -217,7 +217,7 @@ impl SceneFace {
             color: face.color.or(part.color),
             is_hidden: face.hidden,
             kind: FaceKind::Lost(String::new()),
-            edges: edges_of(part, index, owners),
+            edges: edges_of(part, index, &edges.owners),
             sphere: (DVec3::ZERO, 0.0),
         };
         let Ok(found) = shape else { return out };
@@ -225,7 +225,7 @@ impl SceneFace {
             return out;
         }
         let curves = trim_curves_of_edges(part, index, samples, &found.domain, TRIM_FINENESS);
-        let skirts = skirts_of(part, &found.shape, &curves);
+        let skirts = skirts_of(part, &found.shape, &curves, |edge| edges.is_shared(edge));
         let chains: Vec<Vec<Cubic>> =
             curves.into_iter().map(|chain| chain.into_iter().map(|curve| curve.cubic).collect()).collect();
         let [u, v] = found.shape.domain();
@@ -246,24 +246,40 @@ impl SceneFace {
     }
 }
 
-/// For each edge the face that draws it: seams, which one face uses twice, are none's.
-fn edge_owners(part: &Part, shapes: &FaceShapes) -> Vec<Option<FaceId>> {
-    let mut users: Vec<Vec<FaceId>> = vec![Vec::new(); part.edges.len()];
-    for (index, face) in part.faces.iter().enumerate().filter(|(_, face)| !face.hidden) {
-        for coedge in face.loops.iter().flat_map(|l| &l.coedges) {
-            if let Some(users) = users.get_mut(coedge.edge as usize) {
-                users.push(index as FaceId);
+/// Who uses the edges of a part.
+struct EdgeUse {
+    /// For each edge the face that draws it: seams, which one face uses twice, are none's.
+    owners: Vec<Option<FaceId>>,
+    /// Whether several faces end at it.
+    is_shared: Vec<bool>,
+}
+
+impl EdgeUse {
+    fn new(part: &Part, shapes: &FaceShapes) -> Self {
+        let mut users: Vec<Vec<FaceId>> = vec![Vec::new(); part.edges.len()];
+        for (index, face) in part.faces.iter().enumerate().filter(|(_, face)| !face.hidden) {
+            for coedge in face.loops.iter().flat_map(|l| &l.coedges) {
+                if let Some(users) = users.get_mut(coedge.edge as usize) {
+                    users.push(index as FaceId);
+                }
             }
         }
+        let owner = |users: &Vec<FaceId>| match users.as_slice() {
+            [a, b] if a == b => None,
+            users => {
+                let is_drawn = |face: &&FaceId| shapes.faces[**face as usize].is_ok();
+                users.iter().find(is_drawn).or(users.first()).copied()
+            }
+        };
+        let owners = users.iter().map(owner).collect();
+        let is_shared = users.iter().map(|users| users.iter().any(|face| *face != users[0])).collect();
+        Self { owners, is_shared }
     }
-    let owner = |users: Vec<FaceId>| match users.as_slice() {
-        [a, b] if a == b => None,
-        users => {
-            let is_drawn = |face: &&FaceId| shapes.faces[**face as usize].is_ok();
-            users.iter().find(is_drawn).or(users.first()).copied()
-        }
-    };
-    users.into_iter().map(owner).collect()
+
+    /// Whether several faces end at an edge.
+    fn is_shared(&self, edge: u32) -> bool {
+        self.is_shared.get(edge as usize) == Some(&true)
+    }
 }
 
 /// The diagonal of the box of the part's vertices, of its facets, and of where its surfaces say that it lies.

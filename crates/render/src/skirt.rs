@@ -40,17 +40,18 @@ pub(crate) struct Ribbon {
     pub edges: Vec<Segment>,
 }
 
-/// The skirts of a face, and how wide the widest is, millimetres.
+/// The skirts of a face along the edges that it shares with others, and how wide the widest is, millimetres.
 pub(crate) fn skirts_of(
     part: &Part,
     shape: &trimloop_gpu::Shape,
     chains: &[Vec<TrimCurve>],
+    is_shared: impl Fn(u32) -> bool,
 ) -> (Vec<Skirt>, f64) {
     let [least, most] = [LEAST, MOST].map(|share| share * shape.size());
     let mut widest: f64 = 0.0;
     let mut out = Vec::new();
     for TrimCurve { cubic, edge } in chains.iter().flatten() {
-        let Some(piece) = *edge else { continue };
+        let Some(piece) = edge.filter(|piece| is_shared(piece.edge)) else { continue };
         let Some(edge) = part.edges.get(piece.edge as usize) else { continue };
         let skirt = Skirt { cubic: *cubic, curve: edge.curve.clone(), piece };
         let gap = |share: f64| {

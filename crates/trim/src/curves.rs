@@ -20,6 +20,8 @@ pub struct TrimCurve {
     pub edge: Option<EdgePiece>,
 }
 
+/// Where an edge is away from the surface, its feet need not be met more exactly than by this share of the gap.
+const WITHIN_GAP: f64 = 0.1;
 /// Pieces are halved this often at most.
 const DEEPEST: u32 = 8;
 
@@ -80,9 +82,10 @@ impl Fit<'_> {
         let [a, b] = ends;
         let at = |share: f64| piece.from + (piece.to - piece.from) * share;
         let foot = |share: f64| {
-            let uv = self.surface.project(self.curve.point(at(share)), Some(a.lerp(b, share))).uv;
+            let found = self.surface.project(self.curve.point(at(share)), Some(a.lerp(b, share)));
             // A foot far from the chord is another branch of the surface.
-            (self.distance(uv, a.lerp(b, share)) <= 0.5 * self.distance(a, b)).then_some(uv)
+            let is_own = self.distance(found.uv, a.lerp(b, share)) <= 0.5 * self.distance(a, b);
+            is_own.then_some((found.uv, found.distance))
         };
         let Some(middle) = foot(0.5) else {
             out.push(TrimCurve { cubic: straight(a, b), edge: Some(piece) });
@@ -96,19 +99,30 @@ impl Fit<'_> {
             }
             _ => straight(a, b),
         };
-        let is_near = |uv: DVec2, share: f64| self.distance(point(&cubic, share), uv) <= self.tolerance;
+        let is_near = |(uv, gap_mm): (DVec2, f64), share: f64| {
+            let on_cubic = point(&cubic, share);
+            self.distance(on_cubic, uv) <= self.tolerance
+                || self.length_mm(uv, on_cubic - uv) <= WITHIN_GAP * gap_mm
+        };
         let fits = is_near(middle, 0.5)
-            && [0.25, 0.75].into_iter().all(|share| foot(share).is_none_or(|uv| is_near(uv, share)));
+            && [0.25, 0.75].into_iter().all(|share| foot(share).is_none_or(|own| is_near(own, share)));
         if fits || depth == DEEPEST {
             out.push(TrimCurve { cubic, edge: Some(piece) });
             return;
         }
+        let middle = middle.0;
         self.between([a, middle], EdgePiece { to: at(0.5), ..piece }, depth + 1, out);
         self.between([middle, b], EdgePiece { from: at(0.5), ..piece }, depth + 1, out);
     }
 
     fn distance(&self, a: DVec2, b: DVec2) -> f64 {
         ((a - b) / self.extent).length()
+    }
+
+    /// How far a step in the parameter plane leads.
+    fn length_mm(&self, uv: DVec2, step: DVec2) -> f64 {
+        let d = self.surface.first_derivatives(uv);
+        (d.du * step.x + d.dv * step.y).length()
     }
 
     fn is_plausible(&self, slope: DVec2, [a, b]: [DVec2; 2]) -> bool {
