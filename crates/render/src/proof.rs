@@ -18,7 +18,8 @@ pub struct Proof {
     pub off: usize,
     /// Likewise between a face and the edges that it shares, where the file leaves a gap that is bridged.
     pub bridged: usize,
-    /// Pixels that show the background, or something farther away, where the reference shows a face all around.
+    /// Pixels that show the background, or something farther away, where the reference shows a face all around, also within
+    /// half a pixel.
     pub cracks: usize,
     /// Pixels that show a face where the reference has nothing near it, or something in front.
     pub spills: usize,
@@ -60,6 +61,7 @@ pub fn prove(
     let slack = SAME_DEPTH * range.max(0.0)
         + 2.0 * camera.pixel(size[1]) * if camera.is_parallel() { 1.0 } else { depths().fold(0.0, f64::max) };
     let mut proof = Proof::default();
+    let (mut cracks, mut spills) = (Vec::new(), Vec::new());
     let [width, height] = size.map(|n| n as usize);
     for (k, spot) in own.iter().enumerate() {
         let (x, y) = (k % width, k / width);
@@ -89,14 +91,50 @@ pub fn prove(
         let near: Vec<f64> = around.map(|k| wanted[k]).collect();
         let farthest = near.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let nearest = near.iter().copied().fold(f64::INFINITY, f64::min);
-        proof.cracks += usize::from(spot.depth > farthest + slack);
+        if spot.depth > farthest + slack {
+            cracks.push(k);
+        }
         if spot.depth < nearest - slack {
             // A sheet that is seen edge-on lies between the reference's samples.
             let is_on_face = |pick: &Pick| is_on_face(scene, camera, size, pick);
-            proof.spills += usize::from(!seen.pixels[k].as_ref().is_some_and(is_on_face));
+            if !seen.pixels[k].as_ref().is_some_and(is_on_face) {
+                spills.push(k);
+            }
         }
     }
-    Ok(proof)
+    if let (false, Some(reference)) = (cracks.is_empty() && spills.is_empty(), reference) {
+        // What is narrower than a pixel is seen in a finer picture.
+        let fine = Fine { depths: reference.depths(camera, size.map(|n| n * FINER), look)?, size };
+        cracks.retain(|&k| own[k].depth > fine.range(k)[1] + slack);
+        spills.retain(|&k| own[k].depth < fine.range(k)[0] - slack);
+    }
+    Ok(Proof { cracks: cracks.len(), spills: spills.len(), ..proof })
+}
+
+/// Pixels of the finer picture along a pixel's side.
+const FINER: u32 = 4;
+
+/// A finer picture of the reference.
+struct Fine {
+    depths: Vec<f64>,
+    /// Of the picture that is to be proved.
+    size: [u32; 2],
+}
+
+impl Fine {
+    /// The nearest and the farthest depth within half a pixel around a pixel.
+    fn range(&self, pixel: usize) -> [f64; 2] {
+        let [width, height] = self.size.map(|n| (n * FINER) as usize);
+        let (x, y) = (pixel % self.size[0] as usize, pixel / self.size[0] as usize);
+        let finer = FINER as usize;
+        let span = |at: usize, most: usize| {
+            (at * finer).saturating_sub(finer / 2)..(at * finer + finer + finer / 2).min(most)
+        };
+        let all = span(y, height).flat_map(|j| span(x, width).map(move |i| j * width + i));
+        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], k| {
+            [low.min(self.depths[k]), high.max(self.depths[k])]
+        })
+    }
 }
 
 /// Whether the exact point is inside its face, or within half a pixel of its boundary.
