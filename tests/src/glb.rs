@@ -98,6 +98,18 @@ impl Scene {
         Self { nodes, meshes }
     }
 
+    /// The corners of every placed triangle, millimetres, in the CAD file's axes.
+    pub fn triangles(&self) -> Vec<[DVec3; 3]> {
+        let mut out = Vec::new();
+        for node in &self.nodes {
+            for surface in node.mesh.iter().flat_map(|&mesh| &self.meshes[mesh].surfaces) {
+                let corner = |i: u32| file_axes_mm(&node.world, surface.positions[i as usize]);
+                out.extend(surface.triangles.iter().map(|t| t.map(corner)));
+            }
+        }
+        out
+    }
+
     /// The figures of everything that is placed.
     pub fn measure(&self) -> Measure {
         let mut measure = Measure {

@@ -3,8 +3,6 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use wgpu::util::DeviceExt;
-
 use crate::trim_fan::CHANNELS;
 use crate::{GpuError, shaders};
 
@@ -132,6 +130,10 @@ impl Gpu {
         let errors = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop()));
         let first = errors.reduce(|first, _| first);
         let request = || request.to_owned();
+        if first.is_some() || done.is_err() {
+            // The loss of the device may be what is behind it, and is told late.
+            let _ = device.poll(wgpu::PollType::Poll);
+        }
         let lost = self.0.lost.lock().unwrap_or_else(PoisonError::into_inner).clone();
         match (lost, first) {
             (Some(reason), _) => Err(GpuError::Lost { request: request(), reason }),
@@ -156,14 +158,34 @@ impl Gpu {
 
     /// A buffer for shaders, with its content.
     pub(crate) fn upload<T: bytemuck::Pod>(&self, label: &str, content: &[T]) -> wgpu::Buffer {
-        let mut bytes = bytemuck::cast_slice(content).to_vec();
-        // Nothing cannot be bound.
-        bytes.resize(bytes.len().max(16), 0);
-        self.0.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+        self.filled(label, bytemuck::cast_slice(content), 16, usage)
+    }
+
+    /// A buffer with its content, of `least` bytes at least, since nothing cannot be bound. On a lost device it stays empty,
+    /// and the scope around it finds the error.
+    pub fn filled(
+        &self,
+        label: &str,
+        content: &[u8],
+        least: usize,
+        usage: wgpu::BufferUsages,
+    ) -> wgpu::Buffer {
+        let buffer = self.0.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
-            contents: &bytes,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
-        })
+            size: content.len().max(least).next_multiple_of(4) as u64,
+            usage: usage | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        if !content.is_empty() && !self.is_lost() {
+            self.0.queue.write_buffer(&buffer, 0, content);
+        }
+        buffer
+    }
+
+    /// Whether the device is gone: nothing will be drawn any more.
+    pub fn is_lost(&self) -> bool {
+        self.0.lost.lock().unwrap_or_else(PoisonError::into_inner).is_some()
     }
 
     /// A buffer for shaders and vertices, without content.

@@ -3,7 +3,6 @@
 use glam::{DVec2, Vec2};
 use trimloop_trim::TrimDomain;
 use trimloop_trim::curves::Cubic;
-use wgpu::util::DeviceExt;
 
 use crate::device::Key;
 use crate::{Gpu, GpuError, shaders};
@@ -110,11 +109,7 @@ impl TrimFans {
         }
         let corners: Vec<Vec2> = self.triangles().into_iter().flatten().collect();
         let bytes = bytemuck::cast_slice(&corners);
-        let buffer = gpu.device().create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("trim fans"),
-            contents: if bytes.is_empty() { &[0; 8] } else { bytes },
-            usage: wgpu::BufferUsages::VERTEX,
-        });
+        let buffer = gpu.filled("trim fans", bytes, 8, wgpu::BufferUsages::VERTEX);
         (buffer, corners.len() as u32)
     }
 

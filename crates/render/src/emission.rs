@@ -2,7 +2,6 @@
 //! is drawn indirectly.
 
 use trimloop_gpu::{Gpu, GpuError, shaders};
-use wgpu::util::DeviceExt;
 
 use crate::frame::{Item, Lists};
 
@@ -106,17 +105,7 @@ impl Emission {
             totals.iter_mut().zip(draw.amounts()).for_each(|(sum, own)| *sum += own);
         }
         let usage = wgpu::BufferUsages::STORAGE;
-        let upload = |label: &str, bytes: &[u8], least: usize| {
-            // Nothing cannot be bound.
-            let mut bytes = bytes.to_vec();
-            bytes.resize(bytes.len().max(least), 0);
-            let label = Some(label);
-            gpu.device().create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label,
-                contents: &bytes,
-                usage,
-            })
-        };
+        let upload = |label: &str, bytes: &[u8], least: usize| gpu.filled(label, bytes, least, usage);
         let reserve = |label: &str, bytes: u64, extra: wgpu::BufferUsages| {
             if bytes > gpu.largest_binding() {
                 let request = format!("room for the {label} of {} pieces", lists.draws.len());
@@ -179,11 +168,7 @@ impl Emitter {
         let device = gpu.device();
         let pipelines = self.0.get_or_insert_with(|| Pipelines::new(gpu));
         let bounds = Bounds { count: emission.count as u32, ..*bounds };
-        let tile = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("tile"),
-            contents: bytemuck::bytes_of(&bounds),
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
+        let tile = gpu.filled("tile", bytemuck::bytes_of(&bounds), 0, wgpu::BufferUsages::UNIFORM);
         let Emission { draws, amounts, arguments, blocks, indices, strips, count, .. } = emission;
         let buffers = [&tile, draws, cells, amounts, arguments, blocks, indices, strips];
         let entries: Vec<wgpu::BindGroupEntry<'_>> = (0u32..)

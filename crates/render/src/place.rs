@@ -20,7 +20,8 @@ pub struct Place {
     pub point: DVec3,
     /// Unit normal, turned to the eye.
     pub normal: DVec3,
-    /// The radius of a cylinder, a sphere, of a cone there, or a torus' smaller one.
+    /// The radius of a cylinder, a sphere, of a cone there, or a torus' smaller one; none where the instance is not scaled
+    /// evenly.
     pub radius_mm: Option<f64>,
 }
 
@@ -46,6 +47,11 @@ impl Place {
             }
             FaceKind::Empty | FaceKind::Lost(_) => return None,
         };
+        // Lengths grow with the instance, if they all do alike.
+        let m = instance.transform.matrix3;
+        let scales = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.length());
+        let is_even = scales.iter().all(|s| (s - scales[0]).abs() <= 1e-9 * scales[0]);
+        let radius_mm = radius_mm.filter(|_| is_even).map(|radius| radius * scales[0]);
         // Normals are at right angles to what lies in the surface, whatever the transform does to lengths.
         let turned = instance.transform.matrix3.inverse().transpose() * normal;
         let normal = turned.normalize_or_zero();

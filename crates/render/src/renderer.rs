@@ -4,7 +4,6 @@ use std::time::Instant;
 
 use rustc_hash::FxHashSet;
 use trimloop_gpu::{Evaluator, Gpu, GpuError};
-use wgpu::util::DeviceExt;
 
 use crate::camera::Camera;
 use crate::emission::{Emission, Emitter, Strips};
@@ -386,11 +385,8 @@ impl<'a> Bound<'a> {
         tile: &Tile,
     ) -> Self {
         let device = gpu.device();
-        let view = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("view"),
-            contents: bytemuck::bytes_of(&shot.view(tile)),
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
+        let view = shot.view(tile);
+        let view = gpu.filled("view", bytemuck::bytes_of(&view), 0, wgpu::BufferUsages::UNIFORM);
         let group = |layout: &wgpu::BindGroupLayout, buffers: &[&wgpu::Buffer]| {
             let entries: Vec<wgpu::BindGroupEntry<'_>> = (0u32..)
                 .zip(buffers)
@@ -521,11 +517,7 @@ fn compose(
         share: tile.size[1] as f32 / whole,
         size: tile.size.map(|n| n as f32),
     };
-    let buffer = gpu.device().create_buffer_init(&wgpu::util::BufferInitDescriptor {
-        label: Some("ground"),
-        contents: bytemuck::bytes_of(&ground),
-        usage: wgpu::BufferUsages::UNIFORM,
-    });
+    let buffer = gpu.filled("ground", bytemuck::bytes_of(&ground), 0, wgpu::BufferUsages::UNIFORM);
     let pipeline = passes.compose(gpu);
     let group = gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("compose"),

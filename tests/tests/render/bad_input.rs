@@ -17,6 +17,29 @@ fn pictures_without_pixels_and_with_too_many_are_refused() {
     assert_eq!(renderer.pick(&camera, [100, 100], &Look::default(), [100, 5]).expect("no place"), None);
 }
 
+/// A device of its own, since it does not come back.
+#[test]
+fn a_lost_device_is_told_and_nothing_hangs() {
+    if GPU.is_none() {
+        return;
+    }
+    let gpu = trimloop_gpu::Gpu::headless().expect("there is one");
+    let model = model("cadquery/bracket.step");
+    let mut renderer = Renderer::new(&gpu, scene(&model)).expect("a renderer");
+    let camera = camera(renderer.scene(), Direction::ISO, [200, 200]);
+    renderer.picture(&camera, [200, 200], &Look::default()).expect("a picture");
+    gpu.device().destroy();
+    for look in [Look::default(), Look { screen_error_px: 0.1, ..Look::default() }] {
+        let error = renderer.picture(&camera, [200, 200], &look).expect_err("lost");
+        assert!(matches!(error, RenderError::Gpu(trimloop_gpu::GpuError::Lost { .. })), "{error:?}");
+        assert!(renderer.pick(&camera, [200, 200], &look, [100, 100]).is_err());
+    }
+    assert!(matches!(
+        Renderer::new(&gpu, scene(&model)).expect_err("lost"),
+        RenderError::Gpu(trimloop_gpu::GpuError::Lost { .. })
+    ));
+}
+
 #[test]
 fn pictures_larger_than_a_tile_are_the_same() {
     let Some(mut renderer) = renderer("cadquery/bracket.step") else { return };

@@ -3,6 +3,7 @@
 mod bad_input;
 mod pictures;
 mod proof;
+mod silhouette;
 
 use std::sync::LazyLock;
 
