@@ -50,7 +50,7 @@ struct Tile {
 
 const AMOUNTS = 8u;
 // Vertices of a block; vertices that draw a block of segments.
-const BLOCK = 64u;
+const BLOCK = 16u;
 const STRIP = 48u;
 // Segments of a block.
 const SEGMENTS = 8u;

@@ -18,8 +18,8 @@ struct Corner {
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Corner {
-    let block = blocks[index / 64u];
-    let at = block.y + index % 64u;
+    let block = blocks[index / 16u];
+    let at = block.y + index % 16u;
     let a = vertices[2u * at];
     let b = vertices[2u * at + 1u];
     var out: Corner;

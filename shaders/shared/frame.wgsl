@@ -41,7 +41,7 @@ struct Item {
 
 @group(1) @binding(0) var<uniform> view: View;
 @group(1) @binding(1) var<storage, read> items: array<Item>;
-// Vertices (or segments) come in blocks of 64 (or 8): the item, and the first one's place.
+// Vertices (or segments) come in blocks of 16 (or 8): the item, and the first one's place.
 @group(1) @binding(2) var<storage, read> blocks: array<vec2<u32>>;
 @group(1) @binding(3) var<storage, read> vertices: array<vec4<f32>>;
 

@@ -160,8 +160,17 @@ impl Studio<'_> {
             };
             drafts.push(written(&path, &picture)?);
             frames.add(1);
-            if let (true, Some(statistics)) = (arguments.verbose, renderer.statistics()) {
-                eprintln!("{}: {statistics}", path.display());
+            if let Some(statistics) = renderer.statistics() {
+                if arguments.verbose {
+                    eprintln!("{}: {statistics}", path.display());
+                }
+                if statistics.screen_error_px > look.screen_error_px && !arguments.quiet {
+                    let px = statistics.screen_error_px;
+                    eprintln!(
+                        "warning: {}: not enough graphics memory, drawn within {px} px",
+                        path.display()
+                    );
+                }
             }
         }
         drop(frames);

@@ -8,7 +8,7 @@ use crate::{GpuError, shaders};
 
 /// An open graphics device; cloning shares it.
 ///
-/// Everything runs within the limits that WebGPU guarantees in every browser.
+/// Everything runs within the limits that WebGPU guarantees in every browser; buffers may be larger where the device allows.
 #[derive(Clone, Debug)]
 pub struct Gpu(Arc<Inner>);
 
@@ -21,6 +21,9 @@ struct Inner {
     pipelines: Mutex<HashMap<Key, Arc<wgpu::ComputePipeline>>>,
     trim_pipelines: OnceLock<[wgpu::RenderPipeline; CHANNELS]>,
 }
+
+/// Larger buffers are not asked for.
+const LARGEST_BUFFER: u64 = 1 << 30;
 
 /// A pass: the shader's name, its entry point and the values of its constants.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -66,11 +69,17 @@ impl Gpu {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
         let adapter = pick(&instance).await?;
         let info = adapter.get_info();
-        let descriptor = wgpu::DeviceDescriptor {
-            label: Some("trimloop"),
-            required_limits: wgpu::Limits::default(),
-            ..Default::default()
+        // What every browser guarantees, and room for large scenes where the device has it.
+        let (least, own) = (wgpu::Limits::default(), adapter.limits());
+        let required_limits = wgpu::Limits {
+            max_storage_buffer_binding_size: own
+                .max_storage_buffer_binding_size
+                .clamp(least.max_storage_buffer_binding_size, LARGEST_BUFFER),
+            max_buffer_size: own.max_buffer_size.clamp(least.max_buffer_size, LARGEST_BUFFER),
+            ..least
         };
+        let descriptor =
+            wgpu::DeviceDescriptor { label: Some("trimloop"), required_limits, ..Default::default() };
         let no_device = |error: wgpu::RequestDeviceError| GpuError::NoDevice {
             adapter: info.name.clone(),
             reason: error.to_string(),

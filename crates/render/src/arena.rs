@@ -15,6 +15,8 @@ pub(crate) struct Arena<T> {
     capacity: usize,
     /// Elements that were ever given out.
     end: usize,
+    /// Elements that are given out now.
+    used: usize,
     /// Length of each free gap by its start.
     gaps: BTreeMap<usize, usize>,
     holds: PhantomData<T>,
@@ -22,12 +24,36 @@ pub(crate) struct Arena<T> {
 
 const FEWEST: usize = 1024;
 
+/// What was given out at some time.
+#[derive(Clone, Debug)]
+pub(crate) struct Mark {
+    end: usize,
+    used: usize,
+    gaps: BTreeMap<usize, usize>,
+}
+
+impl Mark {
+    /// The first element that was never given out.
+    pub fn end(&self) -> usize {
+        self.end
+    }
+}
+
 impl<T: bytemuck::Pod> Arena<T> {
     pub fn new(gpu: &Gpu, label: &'static str, usage: wgpu::BufferUsages) -> Self {
         let usage =
             usage | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
         let buffer = Self::create(gpu, label, usage, FEWEST);
-        Self { label, buffer, usage, capacity: FEWEST, end: 0, gaps: BTreeMap::new(), holds: PhantomData }
+        Self {
+            label,
+            buffer,
+            usage,
+            capacity: FEWEST,
+            end: 0,
+            used: 0,
+            gaps: BTreeMap::new(),
+            holds: PhantomData,
+        }
     }
 
     fn create(gpu: &Gpu, label: &str, usage: wgpu::BufferUsages, elements: usize) -> wgpu::Buffer {
@@ -57,12 +83,24 @@ impl<T: bytemuck::Pod> Arena<T> {
             if length > count {
                 self.gaps.insert(start + count, length - count);
             }
+            self.used += count;
             return Ok(start);
         }
         let start = self.end;
         self.grow(gpu, start + count)?;
         self.end = start + count;
+        self.used += count;
         Ok(start)
+    }
+
+    /// What is given out now.
+    pub fn mark(&self) -> Mark {
+        Mark { end: self.end, used: self.used, gaps: self.gaps.clone() }
+    }
+
+    /// Takes back what was given out since.
+    pub fn restore(&mut self, Mark { end, used, gaps }: Mark) {
+        (self.end, self.used, self.gaps) = (end, used, gaps);
     }
 
     /// Gives room back.
@@ -70,6 +108,7 @@ impl<T: bytemuck::Pod> Arena<T> {
         if count == 0 {
             return;
         }
+        self.used -= count.min(self.used);
         let mut gap = (start, count);
         if let Some((&before, &length)) = self.gaps.range(..start).next_back()
             && before + length == start
@@ -86,6 +125,11 @@ impl<T: bytemuck::Pod> Arena<T> {
     /// Bytes of the buffer.
     pub fn bytes(&self) -> u64 {
         self.buffer.size()
+    }
+
+    /// Bytes of what is given out.
+    pub fn used_bytes(&self) -> u64 {
+        (self.used * size_of::<T>()) as u64
     }
 
     pub fn write(&self, gpu: &Gpu, start: usize, content: &[T]) {

@@ -38,6 +38,8 @@ pub struct FrameStatistics {
     pub triangles: usize,
     /// Points that were evaluated for it.
     pub evaluated: usize,
+    /// Pixels that what is drawn may be off: more than asked for where the device has not enough memory for that.
+    pub screen_error_px: f64,
     /// Seconds to choose levels of detail and to evaluate.
     pub evaluate_s: f64,
     /// Seconds in all.
@@ -48,11 +50,11 @@ pub struct FrameStatistics {
 
 impl std::fmt::Display for FrameStatistics {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { faces, triangles, evaluated, evaluate_s, total_s, bytes } = self;
+        let Self { faces, triangles, evaluated, screen_error_px, evaluate_s, total_s, bytes } = self;
         let (evaluate_ms, total_ms) = (evaluate_s * 1e3, total_s * 1e3);
         write!(
             f,
-            "{faces} faces, {triangles} triangles, {evaluated} points evaluated in {evaluate_ms:.1} ms, \
+            "{faces} faces within {screen_error_px} px, {triangles} triangles, {evaluated} points evaluated in {evaluate_ms:.1} ms, \
              {total_ms:.1} ms in all, {} KiB on the device",
             bytes / 1024
         )
@@ -61,7 +63,9 @@ impl std::fmt::Display for FrameStatistics {
 
 /// Larger pictures are drawn in tiles.
 const TILE: u32 = 2048;
-/// Pieces that the last picture did not need are kept while there are less vertices than this.
+/// How many times the error that was asked for is tried at most, where memory is short.
+const COARSEST: f64 = 64.0;
+/// Pieces that the last picture did not need are kept while all of them take less than this.
 const KEPT_BYTES: u64 = 64 << 20;
 
 impl Renderer {
@@ -187,22 +191,40 @@ impl Renderer {
         is_solid: bool,
     ) -> Result<(Emission, Vec<Numbered>), RenderError> {
         let start = Instant::now();
-        let shot = Shot { scene: &self.scene, camera, look, size };
-        let visible = shot.visible();
-        let keys = || visible.iter().map(|v| v.key);
-        self.stage.evaluated = 0;
-        if self.stage.vertices.bytes() > KEPT_BYTES {
-            let used: FxHashSet<PieceKey> = keys().collect();
-            self.stage.forget(|key| used.contains(key));
-        }
         let evaluator = &Evaluator::on_gpu(&self.gpu, look.lod.backend());
-        let (stage, gpu, scene) = (&mut self.stage, &self.gpu, &self.scene);
-        let wanted: Vec<PieceKey> = keys().collect();
-        gpu.scoped("evaluate the faces in the picture", || stage.evaluate(gpu, evaluator, scene, wanted))?;
+        let mut look = *look;
+        let wanted_px = look.screen_error_px;
+        let (gpu, scene) = (&self.gpu, &self.scene);
+        self.stage.evaluated = 0;
+        let visible = loop {
+            let shot = Shot { scene, camera, look: &look, size };
+            let visible = shot.visible();
+            let keys: Vec<PieceKey> = visible.iter().map(|v| v.key).collect();
+            let is_coarser = look.screen_error_px > wanted_px;
+            if is_coarser || self.stage.used_bytes() > KEPT_BYTES {
+                let used: FxHashSet<PieceKey> = keys.iter().copied().collect();
+                self.stage.forget(|key| used.contains(key));
+            }
+            let stage = &mut self.stage;
+            match gpu
+                .scoped("evaluate the faces in the picture", || stage.evaluate(gpu, evaluator, scene, keys))
+            {
+                // A coarser picture is better than none.
+                Err(GpuError::OutOfMemory { .. }) if look.screen_error_px < COARSEST * wanted_px => {
+                    look.screen_error_px *= 2.0;
+                }
+                done => {
+                    done?;
+                    break visible;
+                }
+            }
+        };
+        let look = &look;
         self.statistics = FrameStatistics {
             faces: visible.iter().filter(|v| v.key.tile == 0).count(),
             evaluated: self.stage.evaluated,
             evaluate_s: start.elapsed().as_secs_f64(),
+            screen_error_px: look.screen_error_px,
             bytes: self.stage.bytes(),
             ..FrameStatistics::default()
         };

@@ -11,7 +11,7 @@ use trimloop_gpu::{
 };
 use trimloop_trim::curves::Cubic;
 
-use crate::arena::Arena;
+use crate::arena::{Arena, Mark};
 use crate::border::{EdgeCurve, Segment, border_of, segments_of};
 use crate::grid::{Cells, Grid, LONGEST, MOST_CELLS};
 use crate::hierarchy::{APPROXIMATION, Hierarchy};
@@ -33,7 +33,7 @@ const MOST_TEXELS: u32 = 4096;
 const FEWEST_TEXELS: u32 = 32;
 
 /// Vertices of a block; segments of a block.
-pub(crate) const VERTICES: usize = 64;
+pub(crate) const VERTICES: usize = 16;
 pub(crate) const SEGMENTS: usize = 8;
 
 /// A scene on the device.
@@ -231,6 +231,27 @@ impl Trims {
     fn bytes(&self) -> u64 {
         self.buffers().iter().map(|b| b.size()).sum()
     }
+
+    /// That of headers first.
+    fn marks(&self) -> [Mark; 6] {
+        [
+            self.headers.mark(),
+            self.words.mark(),
+            self.bands.mark(),
+            self.entries.mark(),
+            self.curves.mark(),
+            self.masks.mark(),
+        ]
+    }
+
+    fn restore(&mut self, [headers, words, bands, entries, curves, masks]: [Mark; 6]) {
+        self.headers.restore(headers);
+        self.words.restore(words);
+        self.bands.restore(bands);
+        self.entries.restore(entries);
+        self.curves.restore(curves);
+        self.masks.restore(masks);
+    }
 }
 
 impl Stage {
@@ -281,6 +302,14 @@ impl Stage {
         self.trims.bytes() + self.vertices.bytes() + self.segments.bytes() + self.cells.bytes()
     }
 
+    /// Bytes of what depends on the view.
+    pub fn used_bytes(&self) -> u64 {
+        self.trims.masks.used_bytes()
+            + self.vertices.used_bytes()
+            + self.segments.used_bytes()
+            + self.cells.used_bytes()
+    }
+
     fn add_strip(&mut self, gpu: &Gpu, packed: &[[Vec4; 4]]) -> Result<Strip, GpuError> {
         if packed.is_empty() {
             return Ok(Strip::default());
@@ -314,7 +343,7 @@ impl Stage {
         self.pieces.get(key)
     }
 
-    /// Evaluates what of `wanted` is not there yet.
+    /// Evaluates what of `wanted` is not there yet, all of it or nothing.
     ///
     /// # Errors
     /// What the device refuses.
@@ -328,6 +357,27 @@ impl Stage {
         wanted.retain(|key| !self.pieces.contains_key(key));
         wanted.sort_unstable_by_key(|key| (key.part, key.face, key.tile, key.level));
         wanted.dedup();
+        let before = (self.trims.marks(), self.vertices.mark(), self.segments.mark(), self.cells.mark());
+        let done = self.evaluate_all(gpu, evaluator, scene, wanted.clone());
+        if done.is_err() {
+            let (trims, vertices, segments, cells) = before;
+            wanted.iter().for_each(|key| _ = self.pieces.remove(key));
+            self.tables.retain(|_, table| (*table as usize) < trims[0].end());
+            self.trims.restore(trims);
+            self.vertices.restore(vertices);
+            self.segments.restore(segments);
+            self.cells.restore(cells);
+        }
+        done
+    }
+
+    fn evaluate_all(
+        &mut self,
+        gpu: &Gpu,
+        evaluator: &Evaluator,
+        scene: &Scene,
+        wanted: Vec<PieceKey>,
+    ) -> Result<(), GpuError> {
         let (leveled, wanted): (Vec<PieceKey>, Vec<PieceKey>) = wanted
             .into_iter()
             .partition(|key| key.tile > 0 && !key.is_skirt() && key.lod.wavelet().is_some());
@@ -563,12 +613,8 @@ impl Stage {
         }
         let mut out = FxHashMap::default();
         for ([columns, rows], faces) in by_size {
-            let words = columns as usize / 32 * rows as usize;
             for four in faces.chunks(CHANNELS) {
-                let firsts: Vec<u32> = four
-                    .iter()
-                    .map(|_| Ok(self.trims.masks.take(gpu, words)? as u32))
-                    .collect::<Result<_, GpuError>>()?;
+                let (firsts, [columns, rows]) = self.room_for_masks(gpu, four.len(), [columns, rows])?;
                 let fans: Vec<TrimFans> = four.iter().map(|(_, fans)| fans.clone()).collect();
                 trim_masks(gpu, &fans, [columns, rows], &firsts, self.trims.masks.buffer())?;
                 out.extend(
@@ -577,6 +623,23 @@ impl Stage {
             }
         }
         Ok(out)
+    }
+
+    /// Room for so many masks, coarser ones than wanted where there is not enough: the first word of each, and their size.
+    fn room_for_masks(
+        &mut self,
+        gpu: &Gpu,
+        count: usize,
+        mut size: [u32; 2],
+    ) -> Result<(Vec<u32>, [u32; 2]), GpuError> {
+        loop {
+            let words = size[0] as usize / 32 * size[1] as usize;
+            match self.trims.masks.take(gpu, words * count) {
+                Ok(first) => return Ok(((0..count).map(|k| (first + k * words) as u32).collect(), size)),
+                Err(error) if size == [FEWEST_TEXELS; 2] => return Err(error),
+                Err(_) => size = size.map(|n| (n / 2).max(FEWEST_TEXELS)),
+            }
+        }
     }
 
     /// Gives back the room of the pieces that `is_used` does not know.

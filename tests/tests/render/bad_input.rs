@@ -40,6 +40,22 @@ fn a_lost_device_is_told_and_nothing_hangs() {
     ));
 }
 
+/// Six million vertices and more, which a device with the least memory has no room for: it is drawn coarser, and told.
+#[test]
+fn too_little_memory_makes_a_picture_coarser() {
+    let Some(mut renderer) = renderer("cadquery/torus.step") else { return };
+    let size = [1280, 1024];
+    let camera = camera(renderer.scene(), Direction::ISO, size);
+    let look = Look { screen_error_px: 3e-4, ..Look::default() };
+    let seen = renderer.seen(&camera, size, &look).expect("a picture");
+    assert!(seen.pixels.iter().flatten().count() > 300_000);
+    let drawn = renderer.statistics();
+    assert!((look.screen_error_px..0.01).contains(&drawn.screen_error_px), "{drawn}");
+    // The next one has all the room again.
+    renderer.seen(&camera, size, &Look::default()).expect("a picture");
+    assert_eq!(renderer.statistics().screen_error_px, 0.5);
+}
+
 #[test]
 fn pictures_larger_than_a_tile_are_the_same() {
     let Some(mut renderer) = renderer("cadquery/bracket.step") else { return };
