@@ -103,7 +103,7 @@ const FINENESS: f64 = 1e-4;
 const TRIM_FINENESS: f64 = 1e-7;
 const ANGLE_RAD: f64 = 0.3;
 /// Cells of a trim table along each direction, at most.
-const TRIM_CELLS: u32 = 128;
+const TRIM_CELLS: u32 = 64;
 
 impl Scene {
     /// Makes `model` ready; `monitor` is told of every face and may stop it.
