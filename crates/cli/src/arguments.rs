@@ -36,6 +36,9 @@ pub enum Command {
     /// Draw STEP and IGES files: exact surfaces, evaluated on the GPU for the picture
     #[command(after_help = RENDER_EXAMPLES)]
     Render(RenderArguments),
+    /// Open STEP and IGES files in a window
+    #[command(after_help = VIEW_EXAMPLES)]
+    View(ViewArguments),
     /// Compare two shapes, CAD files or meshes: distances both ways, area, volume, topology, and a verdict
     #[command(after_help = COMPARE_EXAMPLES)]
     Compare(CompareArguments),
@@ -88,6 +91,17 @@ Exit codes:
   2  nothing usable: bad usage, unreadable file, unwritable output; nothing is left behind
   130  stopped (Ctrl-C)
 With several inputs, the worst of them.";
+
+const VIEW_EXAMPLES: &str = "\
+Examples:
+  trimloop view bracket.step              files can also be dropped into the window
+  trimloop view *.step --up y
+
+`?` lists the keys. A file that changes on disk is read again, and the view stays.
+
+Exit codes:
+  0  the window was closed
+  2  no window could be opened";
 
 const COMPARE_EXAMPLES: &str = "\
 Examples:
@@ -257,6 +271,18 @@ impl ConvertArguments {
             meshopt: self.meshopt,
         }
     }
+}
+
+/// `trimloop view`.
+#[derive(Args, Debug)]
+pub struct ViewArguments {
+    /// STEP and IGES files
+    #[arg(value_name = "INPUT")]
+    pub inputs: Vec<PathBuf>,
+
+    /// Axis of the models that points up
+    #[arg(long, value_enum, default_value_t = Up::Z)]
+    pub up: Up,
 }
 
 /// `trimloop render`.

@@ -85,6 +85,11 @@ impl Gpu {
             reason: error.to_string(),
         };
         let (device, queue) = adapter.request_device(&descriptor).await.map_err(no_device)?;
+        Ok(Self::of(device, queue, info))
+    }
+
+    /// A device that somebody else opened, for instance for a window, with the limits that WebGPU guarantees.
+    pub fn of(device: wgpu::Device, queue: wgpu::Queue, info: wgpu::AdapterInfo) -> Self {
         let lost = Arc::new(Mutex::new(None));
         let told = lost.clone();
         device.set_device_lost_callback(move |reason, text| {
@@ -94,7 +99,7 @@ impl Gpu {
         // What no scope catches is found by the next one; a panic is the default.
         device.on_uncaptured_error(Arc::new(|_| {}));
         let (pipelines, trim_pipelines) = Default::default();
-        Ok(Self(Arc::new(Inner { device, queue, info, lost, pipelines, trim_pipelines })))
+        Self(Arc::new(Inner { device, queue, info, lost, pipelines, trim_pipelines }))
     }
 
     /// The adapter's name.

@@ -183,7 +183,11 @@ impl Shot<'_> {
             true => stage.piece(&PieceKey { tile: PieceKey::WHOLE, level: trim_level, ..key })?,
             false => own,
         };
+        let is_highlighted = self.scene.highlight.is_some_and(|own| {
+            own.instance == instance as usize && own.face.is_none_or(|face| face == key.face as usize)
+        });
         let color = self.color(placed_in, face);
+        let color = if is_highlighted { highlighted(color) } else { color };
         let item = placed.item(own.origin, color, trimmed.trim, placed_in.node.is_none());
         let item = Item { mask: trimmed.mask, ..item };
         let is_clear = !is_solid && color[3] < 0.999;
@@ -489,6 +493,12 @@ impl Placed {
         let rows = [m.x_axis.extend(t.x), m.y_axis.extend(t.y), m.z_axis.extend(t.z)];
         Item { rows: rows.map(|row| row.as_vec4()), color, trim, id: 0, is_cap: u32::from(is_cap), mask: 0 }
     }
+}
+
+/// The colour of what stands out, linear.
+fn highlighted([r, g, b, a]: [f32; 4]) -> [f32; 4] {
+    let mix = |own: f32, other: f32| 0.35 * own + 0.65 * other;
+    [mix(r, 0.95), mix(g, 0.32), mix(b, 0.04), a.max(0.6)]
 }
 
 /// The planes around a tile, in the eye's coordinates; normals point inwards.

@@ -53,6 +53,6 @@ pub use picture::{Difference, Pick, Picture, Seen};
 pub use place::Place;
 pub use proof::{Proof, prove};
 pub use renderer::{FrameStatistics, Renderer};
-pub use scene::{FaceKind, Instance, Scene, SceneFace, ScenePart, Triangles};
+pub use scene::{FaceKind, Highlight, Instance, Scene, SceneFace, ScenePart, Triangles};
 pub use sheet::contact_sheet;
 pub use surface_face::SurfaceFace;

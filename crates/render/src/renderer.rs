@@ -12,7 +12,7 @@ use crate::frame::{Numbered, Shot, Tile};
 use crate::look::{Background, EdgeStyle, Look, encode, linear};
 use crate::passes::{Pass, Passes, Trim};
 use crate::picture::{Pick, Picture, Seen};
-use crate::scene::{FaceKind, Scene};
+use crate::scene::{FaceKind, Highlight, Scene};
 use crate::stage::{PieceKey, Stage};
 use crate::targets::{IdTargets, Target, Targets, depth_attachment, view_of};
 use crate::{Place, RenderError};
@@ -99,6 +99,11 @@ impl Renderer {
         }
     }
 
+    /// Highlights an instance, or one of its faces; `None` for nothing.
+    pub fn highlight(&mut self, highlight: Option<Highlight>) {
+        self.scene.highlight = highlight;
+    }
+
     /// What the last picture took.
     pub fn statistics(&self) -> FrameStatistics {
         self.statistics
@@ -137,6 +142,33 @@ impl Renderer {
         }
         self.statistics.total_s = start.elapsed().as_secs_f64();
         Ok(out)
+    }
+
+    /// A picture of `size` pixels that stays on the device, for a window: red, green, blue, opacity, as in a PNG file. The
+    /// texture is the same as long as the size is; the next picture is drawn over it.
+    ///
+    /// # Errors
+    /// A size that cannot be, and what the device refuses.
+    pub fn paint(
+        &mut self,
+        camera: &Camera,
+        size: [u32; 2],
+        look: &Look,
+    ) -> Result<wgpu::Texture, RenderError> {
+        check(size)?;
+        let start = Instant::now();
+        let (emission, _) = self.prepare(camera, size, look, false)?;
+        self.statistics.triangles = emission.triangles() as usize;
+        let samples = if look.samples > 1 { 4 } else { 1 };
+        let tile = Tile { column: 0, row: 0, size, jitter: [0.0; 2] };
+        let gpu = self.gpu.clone();
+        let texture = gpu.scoped(&format!("draw {} x {} pixels", size[0], size[1]), || {
+            let (encoder, texture) = self.encode(camera, size, look, &emission, &tile, samples)?;
+            gpu.queue().submit([encoder.finish()]);
+            Ok(texture)
+        })?;
+        self.statistics.total_s = start.elapsed().as_secs_f64();
+        Ok(texture)
     }
 
     /// What every pixel of a picture of `size` pixels shows.
@@ -248,23 +280,37 @@ impl Renderer {
         let name = format!("draw {} x {} pixels", tile.size[0], tile.size[1]);
         let gpu = self.gpu.clone();
         let rgba = read_back(&gpu, &name, tile.size, 4, || {
-            let shot = Shot { scene: &self.scene, camera, look, size };
-            let is_fit = |t: &Targets| t.size == tile.size && t.samples == samples;
-            if !self.targets.as_ref().is_some_and(is_fit) {
-                self.targets = Some(Targets::new(&gpu, tile.size, samples));
-            }
-            let bound = Bound::new(&gpu, &self.passes, &self.stage, &shot, emission, tile);
-            let mut encoder = gpu.device().create_command_encoder(&Default::default());
-            let cells = self.stage.cells.buffer();
-            self.emitter.encode(&gpu, &mut encoder, emission, cells, &shot.bounds(tile));
-            if let Some(targets) = &self.targets {
-                draw(&gpu, &mut encoder, &mut self.passes, targets, &bound, look, samples);
-                compose(&gpu, &mut encoder, &mut self.passes, targets, &shot, tile);
-                return Ok((encoder, targets.picture.clone()));
-            }
-            Err(GpuError::Request("there is nothing to draw into".to_owned()))
+            self.encode(camera, size, look, emission, tile, samples)
         })?;
         Ok(Picture { width: tile.size[0], height: tile.size[1], rgba })
+    }
+
+    /// The work of a tile, and the texture that holds it.
+    fn encode(
+        &mut self,
+        camera: &Camera,
+        size: [u32; 2],
+        look: &Look,
+        emission: &Emission,
+        tile: &Tile,
+        samples: u32,
+    ) -> Result<(wgpu::CommandEncoder, wgpu::Texture), GpuError> {
+        let gpu = self.gpu.clone();
+        let shot = Shot { scene: &self.scene, camera, look, size };
+        let is_fit = |t: &Targets| t.size == tile.size && t.samples == samples;
+        if !self.targets.as_ref().is_some_and(is_fit) {
+            self.targets = Some(Targets::new(&gpu, tile.size, samples));
+        }
+        let bound = Bound::new(&gpu, &self.passes, &self.stage, &shot, emission, tile);
+        let mut encoder = gpu.device().create_command_encoder(&Default::default());
+        let cells = self.stage.cells.buffer();
+        self.emitter.encode(&gpu, &mut encoder, emission, cells, &shot.bounds(tile));
+        let Some(targets) = &self.targets else {
+            return Err(GpuError::Request("there is nothing to draw into".to_owned()));
+        };
+        draw(&gpu, &mut encoder, &mut self.passes, targets, &bound, look, samples);
+        compose(&gpu, &mut encoder, &mut self.passes, targets, &shot, tile);
+        Ok((encoder, targets.picture.clone()))
     }
 
     /// What the pixels of a tile show.

@@ -22,6 +22,8 @@ pub struct Scene {
     pub instances: Vec<Instance>,
     /// What cannot be drawn, or only as triangles.
     pub diagnostics: Vec<Diagnostic>,
+    /// What stands out.
+    pub highlight: Option<Highlight>,
 }
 
 /// A part made ready to be drawn.
@@ -82,6 +84,15 @@ pub struct Triangles {
     pub triangles: Vec<[u32; 3]>,
 }
 
+/// What stands out in a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Highlight {
+    /// Index of the instance.
+    pub instance: usize,
+    /// Index of the face in its part; none for all of them.
+    pub face: Option<usize>,
+}
+
 /// A use of a part.
 #[derive(Clone, Debug)]
 pub struct Instance {
@@ -114,8 +125,12 @@ impl Scene {
         let made: Result<Vec<(ScenePart, Vec<Diagnostic>)>, _> =
             model.parts.par_iter().map(|part| ScenePart::new(part, monitor)).collect();
         let (parts, diagnostics): (Vec<_>, Vec<_>) = made?.into_iter().unzip();
-        let mut scene =
-            Self { parts, instances: Vec::new(), diagnostics: diagnostics.into_iter().flatten().collect() };
+        let mut scene = Self {
+            parts,
+            instances: Vec::new(),
+            diagnostics: diagnostics.into_iter().flatten().collect(),
+            highlight: None,
+        };
         scene.place(model);
         Ok(scene)
     }

@@ -55,7 +55,7 @@ impl Target {
 impl Targets {
     pub fn new(gpu: &Gpu, size: [u32; 2], samples: u32) -> Self {
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        let readable = attachment | wgpu::TextureUsages::COPY_SRC;
+        let readable = attachment | wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::TEXTURE_BINDING;
         Self {
             size,
             samples,
