@@ -9,8 +9,8 @@ use trimloop_brep::{Model, Severity};
 use trimloop_gpu::Gpu;
 use trimloop_import::ImportOptions;
 use trimloop_render::{
-    Background, Camera, Direction, EdgeStyle, Look, Names, Painter, Picture, Place, Projection, Scene,
-    contact_sheet,
+    Background, Camera, Direction, EdgeStyle, Look, Names, Painter, Picture, Place, Projection, Renderer,
+    Scene, contact_sheet,
 };
 
 use crate::arguments::{Edges, RenderArguments, Up};
@@ -139,7 +139,9 @@ impl Studio<'_> {
             return Ok((outcome, None));
         }
         let Some(target) = target else {
-            return Ok((outcome, Some(renderer.picture(&camera(arguments.view)?, size, &look)?)));
+            let picture =
+                renderer.picture(&camera(arguments.view)?, size, &look, &self.steps(size, &look))?;
+            return Ok((outcome, Some(picture)));
         };
         let mut drafts = Vec::new();
         let count = arguments.turntable.unwrap_or(1);
@@ -152,7 +154,9 @@ impl Studio<'_> {
             interrupt::check()?;
             let turn = 360.0 * f64::from(frame) / f64::from(count);
             let direction = Direction { azimuth_deg: arguments.view.azimuth_deg + turn, ..arguments.view };
-            let picture = renderer.picture(&camera(direction)?, size, &look)?;
+            let steps = self.steps(size, &look);
+            let picture = renderer.picture(&camera(direction)?, size, &look, &steps)?;
+            drop(steps);
             let path = if arguments.turntable.is_some() {
                 numbered(target, frame + 1, count)
             } else {
@@ -176,6 +180,13 @@ impl Studio<'_> {
         drop(frames);
         draft::publish(drafts)?;
         Ok((outcome, None))
+    }
+
+    /// Progress of a picture that takes many steps; of others only the wish to stop is passed on.
+    fn steps(&self, size: [u32; 2], look: &Look) -> Progress {
+        let steps = Renderer::steps(size, look);
+        let is_quiet = self.arguments.quiet || steps < 8 || self.arguments.turntable.is_some();
+        Progress::counting(steps, "tiles", is_quiet)
     }
 
     /// Hides what is not wanted.

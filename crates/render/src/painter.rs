@@ -40,13 +40,19 @@ impl Painter {
         }
     }
 
-    /// A picture of `size` pixels.
+    /// A picture of `size` pixels; `monitor` is told of the steps of a large one ([`Renderer::steps`]).
     ///
     /// # Errors
-    /// A size that cannot be, and what the device refuses.
-    pub fn picture(&mut self, camera: &Camera, size: [u32; 2], look: &Look) -> Result<Picture, RenderError> {
+    /// A size that cannot be, what the device refuses, and where `monitor` stops it.
+    pub fn picture(
+        &mut self,
+        camera: &Camera,
+        size: [u32; 2],
+        look: &Look,
+        monitor: &dyn Monitor,
+    ) -> Result<Picture, RenderError> {
         match self {
-            Self::Device(renderer) => renderer.picture(camera, size, look),
+            Self::Device(renderer) => renderer.picture_watched(camera, size, look, monitor),
             Self::Cpu(renderer) => renderer.picture(camera, size, look),
         }
     }

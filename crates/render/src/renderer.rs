@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use rustc_hash::FxHashSet;
 use trimloop_gpu::{Evaluator, Gpu, GpuError};
+use trimloop_mesh::{Monitor, Silent};
 
 use crate::camera::Camera;
 use crate::emission::{Emission, Emitter, Strips};
@@ -114,6 +115,20 @@ impl Renderer {
     /// # Errors
     /// A size that cannot be, and what the device refuses.
     pub fn picture(&mut self, camera: &Camera, size: [u32; 2], look: &Look) -> Result<Picture, RenderError> {
+        self.picture_watched(camera, size, look, &Silent)
+    }
+
+    /// The same, where `monitor` is told of each of [`Renderer::steps`] and may stop it.
+    ///
+    /// # Errors
+    /// As [`Renderer::picture`], and [`trimloop_mesh::Cancelled`].
+    pub fn picture_watched(
+        &mut self,
+        camera: &Camera,
+        size: [u32; 2],
+        look: &Look,
+        monitor: &dyn Monitor,
+    ) -> Result<Picture, RenderError> {
         check(size)?;
         let start = Instant::now();
         let (emission, _) = self.prepare(camera, size, look, false)?;
@@ -124,10 +139,13 @@ impl Renderer {
             rgba: vec![0; size[0] as usize * size[1] as usize * 4],
         };
         let samples = if look.samples > 1 { 4 } else { 1 };
-        let rounds = (look.samples / 4).clamp(1, 64);
+        let rounds = rounds(look);
         for mut tile in tiles(size) {
             let mut sums = Vec::new();
             for round in 0..rounds {
+                if monitor.cancelled() {
+                    return Err(trimloop_mesh::Cancelled.into());
+                }
                 tile.jitter = jitter(round, rounds);
                 let own = self.tile(camera, size, look, &emission, &tile, samples)?;
                 if rounds == 1 {
@@ -135,6 +153,7 @@ impl Renderer {
                 } else {
                     accumulate(&mut sums, &own);
                 }
+                monitor.face_done();
             }
             if rounds > 1 {
                 out.paste(&averaged(&sums, tile.size, rounds), tile.column, tile.row);
@@ -142,6 +161,11 @@ impl Renderer {
         }
         self.statistics.total_s = start.elapsed().as_secs_f64();
         Ok(out)
+    }
+
+    /// The steps in which a picture of `size` pixels is drawn: its tiles, as often as samples ask for.
+    pub fn steps(size: [u32; 2], look: &Look) -> usize {
+        tiles(size).len() * rounds(look) as usize
     }
 
     /// A picture of `size` pixels that stays on the device, for a window: red, green, blue, opacity, as in a PNG file. The
@@ -380,6 +404,11 @@ fn pick_of(scene: &Scene, [id, u, v, _]: [u32; 4], faces: &[Numbered]) -> Option
 pub(crate) fn check([width, height]: [u32; 2]) -> Result<(), RenderError> {
     let is_possible = |n: u32| (1..=MOST_PIXELS).contains(&n);
     if is_possible(width) && is_possible(height) { Ok(()) } else { Err(RenderError::Size(width, height)) }
+}
+
+/// How often a tile is drawn, with four samples each.
+fn rounds(look: &Look) -> u32 {
+    (look.samples / 4).clamp(1, 64)
 }
 
 fn tiles([width, height]: [u32; 2]) -> Vec<Tile> {

@@ -57,6 +57,27 @@ fn too_little_memory_makes_a_picture_coarser() {
 }
 
 #[test]
+fn a_large_picture_can_be_stopped() {
+    struct Stopped(std::sync::atomic::AtomicUsize);
+    impl trimloop_mesh::Monitor for Stopped {
+        fn face_done(&self) {
+            self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        }
+        fn cancelled(&self) -> bool {
+            self.0.load(std::sync::atomic::Ordering::Relaxed) >= 1
+        }
+    }
+    let Some(mut renderer) = renderer("cadquery/box.step") else { return };
+    let size = [4100, 2050];
+    let camera = camera(renderer.scene(), Direction::ISO, size);
+    assert_eq!(Renderer::steps(size, &Look::default()), 6);
+    let stopped = Stopped(Default::default());
+    let error = renderer.picture_watched(&camera, size, &Look::default(), &stopped).expect_err("stopped");
+    assert!(matches!(error, RenderError::Cancelled(_)), "{error:?}");
+    assert_eq!(stopped.0.into_inner(), 1);
+}
+
+#[test]
 fn pictures_larger_than_a_tile_are_the_same() {
     let Some(mut renderer) = renderer("cadquery/bracket.step") else { return };
     let size = [2500, 1100];
