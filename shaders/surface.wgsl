@@ -66,6 +66,34 @@ fn coverage(item: u32, uv: vec2<f32>, across: vec2<f32>, down: vec2<f32>) -> u32
     return mask;
 }
 
+// The colour of a face at a place, linear.
+fn tint(item: u32, place: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+    if view.tightest.x == 0.0 || items[item].flags != 0u {
+        return items[item].color.rgb;
+    }
+    let n = normalize(normal);
+    return ramp(view.tightest.x * curvature(dpdx(place), dpdy(place), dpdx(n), dpdy(n)));
+}
+
+// The larger principal curvature, from how place and unit normal change along two directions: the fundamental forms of any
+// two tangents give it.
+fn curvature(a: vec3<f32>, b: vec3<f32>, na: vec3<f32>, nb: vec3<f32>) -> f32 {
+    let first = vec3<f32>(dot(a, a), dot(a, b), dot(b, b));
+    let second = -vec3<f32>(dot(a, na), 0.5 * (dot(a, nb) + dot(b, na)), dot(b, nb));
+    let area = max(first.x * first.z - first.y * first.y, 1e-30);
+    let mean = (first.x * second.z - 2.0 * first.y * second.y + first.z * second.x) / (2.0 * area);
+    let gauss = (second.x * second.z - second.y * second.y) / area;
+    return abs(mean) + sqrt(max(mean * mean - gauss, 0.0));
+}
+
+// From blue over green to red, linear.
+fn ramp(share: f32) -> vec3<f32> {
+    let x = 4.0 * clamp(share, 0.0, 1.0);
+    let rise = vec3<f32>(clamp(x - 2.0, 0.0, 1.0), clamp(x, 0.0, 1.0), 0.0);
+    let fall = vec3<f32>(0.0, clamp(x - 3.0, 0.0, 1.0), clamp(x - 1.0, 0.0, 1.0));
+    return 0.05 + 0.75 * (vec3<f32>(0.0, 0.0, 1.0) + rise - fall);
+}
+
 struct Painted {
     @location(0) color: vec4<f32>,
     @builtin(sample_mask) mask: u32,
@@ -75,13 +103,13 @@ struct Painted {
 fn paint(in: Corner) -> Painted {
     let across = dpdx(in.uv);
     let down = dpdy(in.uv);
-    let item = items[in.item];
+    let color = tint(in.item, in.place, in.normal);
     var out: Painted;
     out.mask = coverage(in.item, in.uv, across, down);
     if out.mask == 0u || is_cut_away(in.item, in.place) {
         discard;
     }
-    out.color = vec4<f32>(shade(item.color.rgb, in.normal, sight(in.place)), 1.0);
+    out.color = vec4<f32>(shade(color, in.normal, sight(in.place)), 1.0);
     return out;
 }
 
@@ -96,16 +124,16 @@ struct Veil {
 fn veil(in: Corner) -> Veil {
     let across = dpdx(in.uv);
     let down = dpdy(in.uv);
-    let item = items[in.item];
+    let color = tint(in.item, in.place, in.normal);
     var out: Veil;
     out.mask = coverage(in.item, in.uv, across, down);
     if out.mask == 0u || is_cut_away(in.item, in.place) {
         discard;
     }
-    let alpha = item.color.a;
+    let alpha = items[in.item].color.a;
     // Depth is reversed: what is near weighs more.
     let weight = alpha * clamp(3e3 * pow(in.clip.z, 3.0), 1e-2, 3e3);
-    out.sum = vec4<f32>(shade(item.color.rgb, in.normal, sight(in.place)), 1.0) * weight;
+    out.sum = vec4<f32>(shade(color, in.normal, sight(in.place)), 1.0) * weight;
     out.through = alpha;
     return out;
 }

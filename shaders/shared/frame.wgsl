@@ -16,6 +16,8 @@ struct View {
     section: vec4<f32>,
     // Colour of edges, linear; half their width, pixels.
     edge: vec4<f32>,
+    // The radius of curvature that is red; 0 for the items' own colours.
+    tightest: vec4<f32>,
     edge_width: f32,
     // Pixels that borders lie behind, and edges before, what they belong to.
     border_shift: f32,
@@ -33,8 +35,8 @@ struct Item {
     trim: u32,
     // What picking returns, from 1 on.
     id: u32,
-    // 1 where the section plane cuts nothing away: it closes what that cuts open.
-    is_cap: u32,
+    // Bit 0: the section plane cuts nothing away, since it closes what that cuts open. Bit 1: it stands out.
+    flags: u32,
     // Texels of its mask along u, and along v in the upper half.
     mask: u32,
 }
@@ -59,7 +61,7 @@ fn shifted(p: vec3<f32>, pixels: f32) -> vec3<f32> {
 }
 
 fn is_cut_away(item: u32, p: vec3<f32>) -> bool {
-    return items[item].is_cap == 0u && dot(view.section, vec4<f32>(p, 1.0)) > 0.0;
+    return (items[item].flags & 1u) == 0u && dot(view.section, vec4<f32>(p, 1.0)) > 0.0;
 }
 
 // From the eye to the place, unit length.

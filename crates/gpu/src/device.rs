@@ -69,7 +69,18 @@ impl Gpu {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
         let adapter = pick(&instance).await?;
         let info = adapter.get_info();
-        // What every browser guarantees, and room for large scenes where the device has it.
+        let descriptor = Self::descriptor(&adapter);
+        let no_device = |error: wgpu::RequestDeviceError| GpuError::NoDevice {
+            adapter: info.name.clone(),
+            reason: error.to_string(),
+        };
+        let (device, queue) = adapter.request_device(&descriptor).await.map_err(no_device)?;
+        Ok(Self::of(device, queue, info))
+    }
+
+    /// What a device is asked for: the limits that every browser guarantees, room for large scenes and clocks on passes where
+    /// the adapter has them.
+    pub fn descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
         let (least, own) = (wgpu::Limits::default(), adapter.limits());
         let required_limits = wgpu::Limits {
             max_storage_buffer_binding_size: own
@@ -78,14 +89,13 @@ impl Gpu {
             max_buffer_size: own.max_buffer_size.clamp(least.max_buffer_size, LARGEST_BUFFER),
             ..least
         };
-        let descriptor =
-            wgpu::DeviceDescriptor { label: Some("trimloop"), required_limits, ..Default::default() };
-        let no_device = |error: wgpu::RequestDeviceError| GpuError::NoDevice {
-            adapter: info.name.clone(),
-            reason: error.to_string(),
-        };
-        let (device, queue) = adapter.request_device(&descriptor).await.map_err(no_device)?;
-        Ok(Self::of(device, queue, info))
+        let required_features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
+        wgpu::DeviceDescriptor {
+            label: Some("trimloop"),
+            required_limits,
+            required_features,
+            ..Default::default()
+        }
     }
 
     /// A device that somebody else opened, for instance for a window, with the limits that WebGPU guarantees.

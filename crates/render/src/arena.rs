@@ -32,13 +32,6 @@ pub(crate) struct Mark {
     gaps: BTreeMap<usize, usize>,
 }
 
-impl Mark {
-    /// The first element that was never given out.
-    pub fn end(&self) -> usize {
-        self.end
-    }
-}
-
 impl<T: bytemuck::Pod> Arena<T> {
     pub fn new(gpu: &Gpu, label: &'static str, usage: wgpu::BufferUsages) -> Self {
         let usage =

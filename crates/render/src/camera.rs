@@ -84,6 +84,16 @@ impl Direction {
         }
     }
 
+    /// The side on which the eye is when it looks against `outward`; `None` for no direction at all.
+    pub fn towards(outward: DVec3, up: Up) -> Option<Self> {
+        let outward = outward.try_normalize()?;
+        let [right, back, above] = up.frame();
+        let (x, y) = (outward.dot(right), -outward.dot(back));
+        // Straight from above or below, the front stays at the lower border.
+        let azimuth_deg = if x.hypot(y) < 1e-9 { 0.0 } else { x.atan2(y).to_degrees().rem_euclid(360.0) };
+        Some(Self { azimuth_deg, elevation_deg: outward.dot(above).clamp(-1.0, 1.0).asin().to_degrees() })
+    }
+
     /// The picture's axes: to the right, up, back to the eye.
     pub fn axes(self, up: Up) -> [DVec3; 3] {
         let [right, back, above] = up.frame();
@@ -191,6 +201,20 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn directions_of_vectors_are_those_of_names() {
+        for up in [Up::Y, Up::Z] {
+            for name in ["iso", "front", "back", "left", "right", "top", "bottom"] {
+                let direction = Direction::named(name).expect("a view");
+                let found = Direction::towards(3.0 * direction.axes(up)[2], up).expect("a direction");
+                let off = (found.azimuth_deg - direction.azimuth_deg).abs()
+                    + (found.elevation_deg - direction.elevation_deg).abs();
+                assert!(off < 1e-9, "{name} {found:?}");
+            }
+        }
+        assert_eq!(Direction::towards(DVec3::ZERO, Up::Z), None);
+    }
 
     fn cube() -> Vec<DVec3> {
         (0..8)

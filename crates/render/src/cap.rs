@@ -22,6 +22,61 @@ const CELLS: u32 = 256;
 /// What caps are tinted with, and how much.
 const TINT: ([f32; 3], f32) = ([0.86, 0.36, 0.26], 0.45);
 
+/// Cuts the solids of a model open, as often as asked: its meshes are made once.
+#[derive(Debug)]
+pub struct Cutter {
+    /// By part; none where nobody asked for it.
+    meshes: Vec<Option<PartMesh>>,
+}
+
+impl Cutter {
+    /// Meshes those parts of `model` that `is_wanted` says, by their indices.
+    ///
+    /// # Errors
+    /// Where `monitor` stops it.
+    pub fn new(
+        model: &Model,
+        is_wanted: impl Fn(usize) -> bool + Sync,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let options = MeshOptions {
+            linear_deflection: LinearDeflection::Relative(DEFLECTION),
+            ..MeshOptions::default()
+        };
+        let meshes: Result<Vec<Option<PartMesh>>, Cancelled> = (0..model.parts.len())
+            .into_par_iter()
+            .map(|k| match is_wanted(k) {
+                true => trimloop_mesh::mesh_part(&model.parts[k], &options, monitor).map(Some),
+                false => Ok(None),
+            })
+            .collect();
+        Ok(Self { meshes: meshes? })
+    }
+
+    /// A part with one plane face for each solid that `section` cuts open; `None` where that is none. `instances` are those
+    /// that are cut.
+    pub fn caps(&self, model: &Model, instances: &[&Instance], section: &Section) -> Option<ScenePart> {
+        let faces: Vec<SceneFace> = instances
+            .into_par_iter()
+            .filter_map(|i| Some((i, model.parts.get(i.part)?, self.meshes.get(i.part)?.as_ref()?)))
+            .flat_map_iter(|(i, part, mesh)| caps_of(part, mesh, i, section))
+            .collect();
+        if faces.is_empty() {
+            return None;
+        }
+        let outline: Vec<DVec3> = faces.iter().flat_map(SceneFace::outline).collect();
+        let bounds = Aabb::from_points(outline.iter().copied());
+        Some(ScenePart { name: "section".to_owned(), faces, curves: Vec::new(), outline, bounds })
+    }
+}
+
+impl Section {
+    /// The plane moved by next to nothing in a scene of `size` millimetres, so that faces that lie in it are cut away.
+    pub fn aside(self, size: f64) -> Self {
+        Self { offset_mm: self.offset_mm - ASIDE * size, ..self }
+    }
+}
+
 impl Scene {
     /// Closes the solids that `section` cuts open: adds a part with one plane face for each, and its instance. What comes
     /// back is the plane that is to cut, moved by next to nothing, so that faces in it are cut away too.
@@ -34,42 +89,21 @@ impl Scene {
         section: &Section,
         monitor: &dyn Monitor,
     ) -> Result<Section, Cancelled> {
-        let aside = ASIDE * self.bounds().diagonal();
-        let section = &Section { offset_mm: section.offset_mm - aside, ..*section };
-        let options = MeshOptions {
-            linear_deflection: LinearDeflection::Relative(DEFLECTION),
-            ..MeshOptions::default()
-        };
-        let used = |part: usize| self.instances.iter().any(|i| i.is_shown && i.part == part);
-        let meshes: Result<Vec<Option<PartMesh>>, Cancelled> = (0..model.parts.len())
-            .into_par_iter()
-            .map(|k| match used(k) {
-                true => trimloop_mesh::mesh_part(&model.parts[k], &options, monitor).map(Some),
-                false => Ok(None),
-            })
-            .collect();
-        let meshes = meshes?;
+        let section = section.aside(self.bounds().diagonal());
         let shown: Vec<&Instance> = self.instances.iter().filter(|i| i.is_shown).collect();
-        let faces: Vec<SceneFace> = shown
-            .into_par_iter()
-            .filter_map(|i| Some((i, &model.parts[i.part], meshes[i.part].as_ref()?)))
-            .flat_map_iter(|(i, part, mesh)| caps_of(part, mesh, i, section))
-            .collect();
-        if faces.is_empty() {
-            return Ok(*section);
+        let cutter = Cutter::new(model, |part| shown.iter().any(|i| i.part == part), monitor)?;
+        if let Some(part) = cutter.caps(model, &shown, &section) {
+            self.instances.push(Instance::of_caps(self.parts.len()));
+            self.parts.push(part);
         }
-        let outline: Vec<DVec3> = faces.iter().flat_map(SceneFace::outline).collect();
-        let bounds = Aabb::from_points(outline.iter().copied());
-        let name = "section".to_owned();
-        self.instances.push(Instance {
-            part: self.parts.len(),
-            node: None,
-            transform: DAffine3::IDENTITY,
-            color: None,
-            is_shown: true,
-        });
-        self.parts.push(ScenePart { name, faces, curves: Vec::new(), outline, bounds });
-        Ok(*section)
+        Ok(section)
+    }
+}
+
+impl Instance {
+    /// The one of the part that closes what a section plane cuts open.
+    pub(crate) fn of_caps(part: usize) -> Self {
+        Self { part, node: None, transform: DAffine3::IDENTITY, color: None, is_shown: true }
     }
 }
 

@@ -9,7 +9,7 @@ use crate::emission::{Bounds, Draw, Strips};
 use crate::grid::{LONGEST, cells};
 use crate::hierarchy::{Chosen, Sight};
 use crate::lod::Lod;
-use crate::look::{EdgeStyle, Look, linear};
+use crate::look::{EdgeStyle, Look, Paint, linear};
 use crate::scene::{FaceKind, Instance, Scene, SceneFace};
 use crate::stage::{PieceKey, Stage};
 use crate::surface_face::SurfaceFace;
@@ -26,6 +26,8 @@ pub(crate) struct View {
     border: f32,
     section: Vec4,
     edge: Vec4,
+    /// The radius of curvature that is red; 0 for the items' own colours.
+    tightest: Vec4,
     edge_width: f32,
     border_shift: f32,
     edge_shift: f32,
@@ -40,7 +42,7 @@ pub(crate) struct Item {
     color: [f32; 4],
     trim: u32,
     id: u32,
-    is_cap: u32,
+    flags: u32,
     mask: u32,
 }
 
@@ -183,12 +185,13 @@ impl Shot<'_> {
             true => stage.piece(&PieceKey { tile: PieceKey::WHOLE, level: trim_level, ..key })?,
             false => own,
         };
-        let is_highlighted = self.scene.highlight.is_some_and(|own| {
+        let is_highlighted = self.scene.highlights.iter().any(|own| {
             own.instance == instance as usize && own.face.is_none_or(|face| face == key.face as usize)
         });
         let color = self.color(placed_in, face);
         let color = if is_highlighted { highlighted(color) } else { color };
-        let item = placed.item(own.origin, color, trimmed.trim, placed_in.node.is_none());
+        let flags = u32::from(placed_in.node.is_none()) | u32::from(is_highlighted) << 1;
+        let item = placed.item(own.origin, color, trimmed.trim, flags);
         let item = Item { mask: trimmed.mask, ..item };
         let is_clear = !is_solid && color[3] < 0.999;
         let is_edge = key.tile == 0;
@@ -196,7 +199,10 @@ impl Shot<'_> {
             Some(triangles) if is_edge => triangles,
             _ => own,
         };
-        let has_strip = if is_edge { self.look.edges != EdgeStyle::None } else { !is_clear };
+        let has_strip = match is_edge {
+            true => self.look.edges != EdgeStyle::None || !self.look.has_faces,
+            false => !is_clear && self.look.has_faces,
+        };
         let draw = Draw {
             center: center.as_vec3().to_array(),
             // Rounding of the centre is made up for.
@@ -205,8 +211,8 @@ impl Shot<'_> {
             blocks: piece.blocks,
             columns: piece.cells.columns,
             first_cell: piece.cells.first,
-            whole: piece.cells.whole,
-            part: piece.cells.part,
+            whole: if self.look.has_faces { piece.cells.whole } else { 0 },
+            part: if self.look.has_faces { piece.cells.part } else { 0 },
             first_strip: own.strip.first,
             strips: if has_strip { own.strip.blocks } else { 0 },
             kind: Draw::kind(if is_edge { Strips::Edges } else { Strips::Borders }, is_clear),
@@ -230,7 +236,7 @@ impl Shot<'_> {
                     kind: Draw::kind(Strips::Lines, false),
                     ..Draw::default()
                 });
-                lists.items.push(placed.item(curve.origin, color, 0, false));
+                lists.items.push(placed.item(curve.origin, color, 0, 0));
             }
         }
     }
@@ -254,7 +260,16 @@ impl Shot<'_> {
     }
 
     fn color(&self, instance: &Instance, face: &SceneFace) -> [f32; 4] {
-        linear(instance.color.or(face.color).unwrap_or(self.look.color))
+        let own = instance.color.or(face.color).unwrap_or(self.look.color);
+        if instance.node.is_none() {
+            return linear(own);
+        }
+        let color = match self.look.paint {
+            Paint::Own | Paint::Curvature { .. } => own,
+            Paint::Parts => Rgba { a: own.a, ..Paint::of_part(instance.part) },
+            Paint::Kinds => Rgba { a: own.a, ..Paint::of_kind(face.surface_kind()) },
+        };
+        linear(Rgba { a: color.a * self.look.opacity, ..color })
     }
 
     /// The view of a tile.
@@ -294,6 +309,10 @@ impl Shot<'_> {
             border: if self.look.lod.has_masks() { MASK_BORDER_PX } else { BORDER_PX },
             section,
             edge: Vec4::new(0.012, 0.014, 0.018, 1.0),
+            tightest: match self.look.paint {
+                Paint::Curvature { tightest_mm } => Vec4::X * tightest_mm as f32,
+                _ => Vec4::ZERO,
+            },
             edge_width: EDGE_PX,
             border_shift: BORDER_SHIFT_PX,
             edge_shift: EDGE_SHIFT_PX,
@@ -487,11 +506,11 @@ impl Placed {
         0.5 * (self.matrix.matrix3.transpose() * direction).abs().dot(size)
     }
 
-    fn item(&self, origin: DVec3, color: [f32; 4], trim: u32, is_cap: bool) -> Item {
+    fn item(&self, origin: DVec3, color: [f32; 4], trim: u32, flags: u32) -> Item {
         let m = self.matrix.matrix3.transpose();
         let t = self.point(origin);
         let rows = [m.x_axis.extend(t.x), m.y_axis.extend(t.y), m.z_axis.extend(t.z)];
-        Item { rows: rows.map(|row| row.as_vec4()), color, trim, id: 0, is_cap: u32::from(is_cap), mask: 0 }
+        Item { rows: rows.map(|row| row.as_vec4()), color, trim, id: 0, flags, mask: 0 }
     }
 }
 

@@ -24,6 +24,58 @@ pub struct Look {
     pub up: Up,
     /// How levels of detail are chosen.
     pub lod: Lod,
+    /// What faces are coloured by.
+    pub paint: Paint,
+    /// What the opacity of faces is multiplied with.
+    pub opacity: f32,
+    /// Whether faces are drawn; edges alone otherwise.
+    pub has_faces: bool,
+}
+
+/// What faces are coloured by.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Paint {
+    /// Their own colours.
+    #[default]
+    Own,
+    /// A colour per part.
+    Parts,
+    /// A colour per kind of surface; [`Paint::of_kind`] tells which.
+    Kinds,
+    /// The larger of the two principal curvatures, from blue (plane) over green to red.
+    Curvature {
+        /// The radius of curvature that is red, as are smaller ones; millimetres.
+        tightest_mm: f64,
+    },
+}
+
+impl Paint {
+    /// The colour of a kind of surface, as `Surface::kind` names it.
+    pub fn of_kind(kind: &str) -> Rgba {
+        let [r, g, b] = match kind {
+            "plane" => [0.62, 0.68, 0.76],
+            "cylinder" => [0.30, 0.62, 0.90],
+            "cone" => [0.36, 0.76, 0.48],
+            "sphere" => [0.95, 0.73, 0.25],
+            "torus" => [0.91, 0.49, 0.24],
+            "extrusion" => [0.33, 0.73, 0.74],
+            "revolution" => [0.62, 0.49, 0.86],
+            "offset" => [0.62, 0.54, 0.42],
+            "triangles" => [0.45, 0.45, 0.45],
+            _ => [0.86, 0.40, 0.62],
+        };
+        Rgba::opaque(r, g, b)
+    }
+
+    /// The colour of a part, by its index: neighbours differ in hue by the golden angle.
+    pub fn of_part(index: usize) -> Rgba {
+        let hue = (index as f32 * 0.381_966 + 0.58).fract() * 6.0;
+        let channel = |shift: f32| {
+            let k = (hue + shift).rem_euclid(6.0);
+            0.86 - 0.48 * k.min(4.0 - k).clamp(0.0, 1.0)
+        };
+        Rgba::opaque(channel(5.0), channel(3.0), channel(1.0))
+    }
 }
 
 /// What is behind the model.
@@ -67,6 +119,9 @@ impl Default for Look {
             section: None,
             up: Up::Z,
             lod: Lod::Adaptive,
+            paint: Paint::Own,
+            opacity: 1.0,
+            has_faces: true,
         }
     }
 }

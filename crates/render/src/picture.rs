@@ -37,6 +37,12 @@ pub struct Seen {
     pub pixels: Vec<Option<Pick>>,
 }
 
+impl Seen {
+    pub(crate) fn empty(size: [u32; 2]) -> Self {
+        Self { width: size[0], height: size[1], pixels: vec![None; size[0] as usize * size[1] as usize] }
+    }
+}
+
 /// How much two pictures differ: 0 for not at all, 1 for black and white.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use trimloop_brep::{Diagnostic, EntityRef, FaceId, Model, Part, Rgba, Severity};
-use trimloop_geom::Aabb;
+use trimloop_geom::{Aabb, Surface};
 use trimloop_gpu::{FaceShapes, TrimTable};
 use trimloop_mesh::{FaceStatus, MeshOptions, Monitor};
 use trimloop_trim::Tolerance;
@@ -23,11 +23,11 @@ pub struct Scene {
     /// What cannot be drawn, or only as triangles.
     pub diagnostics: Vec<Diagnostic>,
     /// What stands out.
-    pub highlight: Option<Highlight>,
+    pub highlights: Vec<Highlight>,
 }
 
 /// A part made ready to be drawn.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct ScenePart {
     /// Its name.
     pub name: String,
@@ -85,7 +85,7 @@ pub struct Triangles {
 }
 
 /// What stands out in a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Highlight {
     /// Index of the instance.
     pub instance: usize,
@@ -129,10 +129,19 @@ impl Scene {
             parts,
             instances: Vec::new(),
             diagnostics: diagnostics.into_iter().flatten().collect(),
-            highlight: None,
+            highlights: Vec::new(),
         };
         scene.place(model);
         Ok(scene)
+    }
+
+    /// The same without what its parts are made of, so that instances and names are there at once: [`ScenePart::new`] makes
+    /// the parts, and [`crate::Renderer::set_part`] puts them in.
+    pub fn of_nothing_yet(model: &Model) -> Self {
+        let part = |part: &Part| ScenePart { name: name_of(part), ..ScenePart::default() };
+        let mut scene = Self { parts: model.parts.iter().map(part).collect(), ..Self::default() };
+        scene.place(model);
+        scene
     }
 
     fn place(&mut self, model: &Model) {
@@ -186,7 +195,15 @@ impl Scene {
 }
 
 impl ScenePart {
-    fn new(part: &Part, monitor: &dyn Monitor) -> Result<(Self, Vec<Diagnostic>), trimloop_mesh::Cancelled> {
+    /// Makes a part ready; also, what of it cannot be drawn, or only as triangles. `monitor` is told of every face and may
+    /// stop it.
+    ///
+    /// # Errors
+    /// [`trimloop_mesh::Cancelled`].
+    pub fn new(
+        part: &Part,
+        monitor: &dyn Monitor,
+    ) -> Result<(Self, Vec<Diagnostic>), trimloop_mesh::Cancelled> {
         let size = part_size(part);
         let tolerance = Tolerance { linear_mm: (size * FINENESS).max(1e-9), angular_rad: ANGLE_RAD };
         let shapes = FaceShapes::new(part, tolerance);
@@ -212,10 +229,23 @@ impl ScenePart {
         let shown = faces.iter().filter(|face| !face.is_hidden);
         let mut outline: Vec<DVec3> = shown.flat_map(SceneFace::outline).collect();
         outline.extend(curves.iter().flat_map(|(points, _)| points));
-        let name = if part.name.is_empty() { part.id.clone() } else { part.name.clone() };
         let bounds = Aabb::from_points(outline.iter().copied());
-        Ok((Self { name, faces, curves, outline, bounds }, diagnostics))
+        Ok((Self { name: name_of(part), faces, curves, outline, bounds }, diagnostics))
     }
+}
+
+impl ScenePart {
+    /// A part of triangles alone, each list of them with its colour.
+    pub fn of_triangles(name: &str, lists: Vec<(Triangles, Rgba)>) -> Self {
+        let faces: Vec<SceneFace> = lists.into_iter().map(|(own, color)| SceneFace::of(own, color)).collect();
+        let outline: Vec<DVec3> = faces.iter().flat_map(SceneFace::outline).collect();
+        let bounds = Aabb::from_points(outline.iter().copied());
+        Self { name: name.to_owned(), faces, curves: Vec::new(), outline, bounds }
+    }
+}
+
+fn name_of(part: &Part) -> String {
+    if part.name.is_empty() { part.id.clone() } else { part.name.clone() }
 }
 
 impl SceneFace {
@@ -250,6 +280,28 @@ impl SceneFace {
         out.sphere = surface.sphere();
         out.kind = FaceKind::Surface(Box::new(surface.with_skirts(skirts)));
         out
+    }
+
+    fn of(own: Triangles, color: Rgba) -> Self {
+        let bounds = Aabb::from_points(own.positions.iter().map(|p| *p + own.origin));
+        let sphere = (bounds.center(), 0.5 * bounds.diagonal());
+        let kind = FaceKind::Triangles(own);
+        Self {
+            entity: EntityRef::None,
+            color: Some(color),
+            is_hidden: false,
+            kind,
+            edges: Vec::new(),
+            sphere,
+        }
+    }
+
+    /// The kind of its surface, as `Surface::kind` names it; `triangles` where it has none.
+    pub fn surface_kind(&self) -> &'static str {
+        match &self.kind {
+            FaceKind::Surface(surface) => surface.surface().map_or("nurbs", Surface::kind),
+            _ => "triangles",
+        }
     }
 
     pub(crate) fn outline(&self) -> Vec<DVec3> {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3, Vec4};
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use trimloop_gpu::{
     CHANNELS, DevicePyramid, Evaluator, Gpu, GpuError, PatchGrid, PatchRequest, PatchTree, Places,
     Quantities, Request, TrimFans, TrimHeader, TrimTable, Wavelet, evaluate_patches, trim_masks,
@@ -16,7 +16,7 @@ use crate::border::{EdgeCurve, Segment, border_of, segments_of};
 use crate::grid::{Cells, Grid, LONGEST, MOST_CELLS};
 use crate::hierarchy::{APPROXIMATION, Hierarchy};
 use crate::lod::Lod;
-use crate::scene::{FaceKind, Scene, SceneFace, Triangles};
+use crate::scene::{FaceKind, Scene, SceneFace, ScenePart, Triangles};
 use crate::skirt::ribbon_of;
 use crate::surface_face::SurfaceFace;
 
@@ -53,8 +53,8 @@ pub(crate) struct Stage {
     pieces: FxHashMap<PieceKey, Piece>,
     /// By part, face and strategy.
     pyramids: FxHashMap<(u32, u32, Lod), Leveled>,
-    /// Numbers of trim tables by part, face and tile.
-    tables: FxHashMap<(u32, u32, u64), u32>,
+    /// Trim tables by part, face and tile.
+    tables: FxHashMap<(u32, u32, u64), TableRoom>,
     /// Points that were evaluated since the last time that somebody asked.
     pub evaluated: usize,
 }
@@ -182,6 +182,16 @@ struct Draft<'a> {
     vertices: Vec<[Vec4; 2]>,
 }
 
+/// Where a trim table lies: its number, and first elements and lengths of what it is made of.
+#[derive(Clone, Copy, Debug)]
+struct TableRoom {
+    header: u32,
+    words: (usize, usize),
+    bands: (usize, usize),
+    entries: (usize, usize),
+    curves: (usize, usize),
+}
+
 /// The trim tables of all faces, behind each other.
 #[derive(Debug)]
 pub(crate) struct Trims {
@@ -206,15 +216,28 @@ impl Trims {
         }
     }
 
-    fn add(&mut self, gpu: &Gpu, table: &TrimTable) -> Result<u32, GpuError> {
+    fn add(&mut self, gpu: &Gpu, table: &TrimTable) -> Result<TableRoom, GpuError> {
+        let words = (self.words.add(gpu, table.words())?, table.words().len());
+        let bands = (self.bands.add(gpu, table.bands())?, table.bands().len());
+        let entries = (self.entries.add(gpu, table.entries())?, table.entries().len());
+        let curves = (self.curves.add(gpu, table.curves())?, table.curves().len());
         let header = TrimHeader {
-            first_word: self.words.add(gpu, table.words())? as u32,
-            first_band: self.bands.add(gpu, table.bands())? as u32,
-            first_entry: self.entries.add(gpu, table.entries())? as u32,
-            first_curve: (self.curves.add(gpu, table.curves())? / 2) as u32,
+            first_word: words.0 as u32,
+            first_band: bands.0 as u32,
+            first_entry: entries.0 as u32,
+            first_curve: (curves.0 / 2) as u32,
             ..table.header()
         };
-        Ok(self.headers.add(gpu, &[header])? as u32)
+        let header = self.headers.add(gpu, &[header])? as u32;
+        Ok(TableRoom { header, words, bands, entries, curves })
+    }
+
+    fn give_back(&mut self, room: &TableRoom) {
+        self.headers.give_back(room.header as usize, 1);
+        self.words.give_back(room.words.0, room.words.1);
+        self.bands.give_back(room.bands.0, room.bands.1);
+        self.entries.give_back(room.entries.0, room.entries.1);
+        self.curves.give_back(room.curves.0, room.curves.1);
     }
 
     pub fn buffers(&self) -> [&wgpu::Buffer; 6] {
@@ -269,32 +292,61 @@ impl Stage {
             tables: FxHashMap::default(),
             evaluated: 0,
         };
-        for part in &scene.parts {
-            let mut faces = Vec::with_capacity(part.faces.len());
-            for face in &part.faces {
-                let mut staged = StagedFace { origin: face.sphere.0, ..StagedFace::default() };
-                match &face.kind {
-                    FaceKind::Surface(surface) => {
-                        staged.origin = surface.shape.origin();
-                    }
-                    FaceKind::Triangles(triangles) => {
-                        staged.origin = triangles.origin;
-                        staged.triangles = Some(stage.add_triangles(gpu, triangles)?);
-                    }
-                    FaceKind::Empty | FaceKind::Lost(_) => {}
-                }
-                faces.push(staged);
-            }
-            stage.faces.push(faces);
-            let mut curves = Vec::new();
-            for (points, _) in &part.curves {
-                let origin = points[points.len() / 2];
-                let packed = packed(&chords(points), origin, None);
-                curves.push(StagedCurve { origin, strip: stage.add_strip(gpu, &packed)? });
-            }
-            stage.curves.push(curves);
+        for (index, part) in scene.parts.iter().enumerate() {
+            stage.set_part(gpu, index, part)?;
         }
         Ok(stage)
+    }
+
+    /// Brings a part to the device, in the place of the one with that index.
+    ///
+    /// # Errors
+    /// What the device refuses.
+    pub fn set_part(&mut self, gpu: &Gpu, index: usize, part: &ScenePart) -> Result<(), GpuError> {
+        self.clear_part(index);
+        let mut faces = Vec::with_capacity(part.faces.len());
+        for face in &part.faces {
+            let mut staged = StagedFace { origin: face.sphere.0, ..StagedFace::default() };
+            match &face.kind {
+                FaceKind::Surface(surface) => {
+                    staged.origin = surface.shape.origin();
+                }
+                FaceKind::Triangles(triangles) => {
+                    staged.origin = triangles.origin;
+                    staged.triangles = Some(self.add_triangles(gpu, triangles)?);
+                }
+                FaceKind::Empty | FaceKind::Lost(_) => {}
+            }
+            faces.push(staged);
+        }
+        self.faces[index] = faces;
+        for (points, _) in &part.curves {
+            let origin = points[points.len() / 2];
+            let packed = packed(&chords(points), origin, None);
+            let curve = StagedCurve { origin, strip: self.add_strip(gpu, &packed)? };
+            self.curves[index].push(curve);
+        }
+        Ok(())
+    }
+
+    /// Gives back all that the device holds of a part.
+    fn clear_part(&mut self, index: usize) {
+        let count = self.faces.len().max(index + 1);
+        self.faces.resize_with(count, Vec::new);
+        self.curves.resize_with(count, Vec::new);
+        self.forget(|key| key.part as usize != index);
+        for curve in std::mem::take(&mut self.curves[index]) {
+            self.segments.give_back(curve.strip.first as usize, curve.strip.blocks as usize * SEGMENTS);
+        }
+        for triangles in std::mem::take(&mut self.faces[index]).into_iter().filter_map(|f| f.triangles) {
+            self.give_back(&triangles);
+        }
+        self.pyramids.retain(|(part, ..), _| *part as usize != index);
+        let is_own = |(part, ..): &(u32, u32, u64)| *part as usize == index;
+        let own: Vec<(u32, u32, u64)> = self.tables.keys().copied().filter(is_own).collect();
+        for table in own.iter().filter_map(|key| self.tables.remove(key)).collect::<Vec<_>>() {
+            self.trims.give_back(&table);
+        }
     }
 
     /// Bytes that the device holds for the scene.
@@ -357,12 +409,13 @@ impl Stage {
         wanted.retain(|key| !self.pieces.contains_key(key));
         wanted.sort_unstable_by_key(|key| (key.part, key.face, key.tile, key.level));
         wanted.dedup();
+        let known: FxHashSet<(u32, u32, u64)> = self.tables.keys().copied().collect();
         let before = (self.trims.marks(), self.vertices.mark(), self.segments.mark(), self.cells.mark());
         let done = self.evaluate_all(gpu, evaluator, scene, wanted.clone());
         if done.is_err() {
             let (trims, vertices, segments, cells) = before;
             wanted.iter().for_each(|key| _ = self.pieces.remove(key));
-            self.tables.retain(|_, table| (*table as usize) < trims[0].end());
+            self.tables.retain(|tile, _| known.contains(tile));
             self.trims.restore(trims);
             self.vertices.restore(vertices);
             self.segments.restore(segments);
@@ -460,11 +513,11 @@ impl Stage {
     fn table(&mut self, gpu: &Gpu, key: &PieceKey, face: &SurfaceFace) -> Result<u32, GpuError> {
         let tile = (key.part, key.face, key.tile);
         if let Some(table) = self.tables.get(&tile) {
-            return Ok(*table);
+            return Ok(table.header);
         }
         let table = self.trims.add(gpu, &face.table)?;
         self.tables.insert(tile, table);
-        Ok(table)
+        Ok(table.header)
     }
 
     /// Pieces from pyramids: a finest grid is evaluated where there is none that is fine enough, others are steps from it.
@@ -651,12 +704,16 @@ impl Stage {
                 if texels > 0 {
                     self.trims.masks.give_back(piece.trim as usize, texels / 32);
                 }
-                self.vertices.give_back(piece.first_vertex as usize, piece.blocks as usize * VERTICES);
-                self.cells
-                    .give_back(piece.cells.first as usize, (piece.cells.whole + piece.cells.part) as usize);
-                self.segments.give_back(piece.strip.first as usize, piece.strip.blocks as usize * SEGMENTS);
+                self.give_back(&piece);
             }
         }
+    }
+
+    /// Gives back the room of a piece, but for its mask or table.
+    fn give_back(&mut self, piece: &Piece) {
+        self.vertices.give_back(piece.first_vertex as usize, piece.blocks as usize * VERTICES);
+        self.cells.give_back(piece.cells.first as usize, (piece.cells.whole + piece.cells.part) as usize);
+        self.segments.give_back(piece.strip.first as usize, piece.strip.blocks as usize * SEGMENTS);
     }
 }
 

@@ -1,14 +1,16 @@
-//! Reads files in the background.
+//! Reads files in the background: first the model, then its parts, one by one as they are ready to be drawn.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
-use std::sync::{Arc, OnceLock};
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 
-use trimloop_brep::Model;
+use rayon::prelude::*;
+use trimloop_brep::{Diagnostic, Model};
 use trimloop_import::ImportOptions;
 use trimloop_mesh::Monitor;
-use trimloop_render::Scene;
+use trimloop_render::ScenePart;
 
 /// A file on its way.
 #[derive(Debug)]
@@ -16,16 +18,28 @@ pub(crate) struct Loading {
     pub path: PathBuf,
     /// Whether it replaces what was read before from the same place.
     pub is_reload: bool,
+    /// The document that its parts go to.
+    pub document: Option<u64>,
     progress: Arc<LoadProgress>,
-    done: Receiver<Result<Loaded, String>>,
+    arrivals: Receiver<Arrival>,
 }
 
-/// A file's content, ready to be drawn.
+/// What comes from a file, in this order: its model, its parts in any order, the end.
 #[derive(Debug)]
-pub(crate) struct Loaded {
-    pub model: Model,
-    pub scene: Scene,
-    pub seconds: f64,
+pub(crate) enum Arrival {
+    Model(Arc<Model>),
+    Part(Box<ReadyPart>),
+    /// Seconds that it took.
+    Done(f64),
+    Failed(String),
+}
+
+/// A part that can be drawn.
+#[derive(Debug)]
+pub(crate) struct ReadyPart {
+    pub index: usize,
+    pub part: ScenePart,
+    pub diagnostics: Vec<Diagnostic>,
 }
 
 /// How far it is, and whether somebody stopped it.
@@ -47,27 +61,32 @@ impl Monitor for LoadProgress {
 }
 
 impl Loading {
-    /// Begins to read `path`; `wake` is called when it is done, and now and then before.
-    pub fn start(path: PathBuf, is_reload: bool, wake: impl Fn() + Send + 'static) -> Self {
+    /// Begins to read `path`; `wake` is called whenever something has arrived.
+    pub fn start(path: PathBuf, is_reload: bool, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let progress = Arc::new(LoadProgress::default());
-        let (sender, done) = channel();
+        let (sender, arrivals) = channel();
         let (own, from) = (progress.clone(), path.clone());
         std::thread::spawn(move || {
-            let read = || load(&from, &own);
+            let read = || load(&from, &own, &sender, &wake);
             let told = std::panic::catch_unwind(std::panic::AssertUnwindSafe(read))
                 .unwrap_or_else(|_| Err("the program failed on this file; please report it".to_owned()));
-            let _ = sender.send(told);
+            if let Err(reason) = told {
+                // Nobody listens where the window is closed.
+                let _ = sender.send(Arrival::Failed(reason));
+            }
             wake();
         });
-        Self { path, is_reload, progress, done }
+        Self { path, is_reload, document: None, progress, arrivals }
     }
 
-    /// The result, once it is there.
-    pub fn poll(&self) -> Option<Result<Loaded, String>> {
-        match self.done.try_recv() {
-            Ok(result) => Some(result),
+    /// What has arrived next; `None` for nothing yet.
+    pub fn poll(&self) -> Option<Arrival> {
+        match self.arrivals.try_recv() {
+            Ok(arrival) => Some(arrival),
             Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err("reading ended without a result".to_owned())),
+            Err(TryRecvError::Disconnected) => {
+                Some(Arrival::Failed("reading ended without a result".to_owned()))
+            }
         }
     }
 
@@ -86,10 +105,41 @@ impl Loading {
     }
 }
 
-fn load(path: &Path, progress: &LoadProgress) -> Result<Loaded, String> {
+/// What nobody listens to any more needs not be done.
+impl Drop for Loading {
+    fn drop(&mut self) {
+        self.cancel();
+    }
+}
+
+fn load(
+    path: &Path,
+    progress: &LoadProgress,
+    sender: &Sender<Arrival>,
+    wake: &(dyn Fn() + Sync),
+) -> Result<(), String> {
     let start = std::time::Instant::now();
     let model = trimloop_import::read(path, &ImportOptions::default()).map_err(|error| error.to_string())?;
+    if model.parts.iter().all(|part| part.faces.is_empty() && part.curves.is_empty()) {
+        return Err("there is nothing in it that could be drawn".to_owned());
+    }
     let _ = progress.faces.set(model.parts.iter().map(|part| part.faces.len()).sum());
-    let scene = Scene::new(&model, progress).map_err(|error| error.to_string())?;
-    Ok(Loaded { model, scene, seconds: start.elapsed().as_secs_f64() })
+    let model = Arc::new(model);
+    let send = |arrival: Arrival| {
+        let _ = sender.send(arrival);
+        wake();
+    };
+    send(Arrival::Model(model.clone()));
+    // Large parts first: small ones fill the gaps.
+    let mut order: Vec<usize> = (0..model.parts.len()).collect();
+    order.sort_by_key(|&k| std::cmp::Reverse(model.parts[k].faces.len()));
+    let make = |index: usize| {
+        let (part, diagnostics) = ScenePart::new(&model.parts[index], progress)?;
+        send(Arrival::Part(Box::new(ReadyPart { index, part, diagnostics })));
+        Ok(())
+    };
+    let made: Result<(), trimloop_mesh::Cancelled> = order.into_par_iter().with_max_len(1).try_for_each(make);
+    made.map_err(|error| error.to_string())?;
+    send(Arrival::Done(start.elapsed().as_secs_f64()));
+    Ok(())
 }

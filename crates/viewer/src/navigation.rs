@@ -23,8 +23,22 @@ pub struct Navigation {
     pub is_parallel: bool,
 }
 
+/// What two fingers on a touchpad do; pinching always zooms, and with Shift they move.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub(crate) enum TwoFingers {
+    #[default]
+    Turn,
+    Move,
+    Zoom,
+}
+
+impl TwoFingers {
+    pub(crate) const ALL: [(Self, &'static str); 3] =
+        [(Self::Turn, "turn"), (Self::Move, "move"), (Self::Zoom, "zoom")];
+}
+
 /// Which buttons do what.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Style {
     /// Left turns, middle and right move.
     #[default]

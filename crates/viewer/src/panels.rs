@@ -1,126 +1,39 @@
 //! The panels beside the view.
 
 use egui::{RichText, Ui};
-use trimloop_brep::Severity;
-use trimloop_render::Highlight;
+use glam::DVec3;
+use trimloop_brep::{FaceGeometry, Severity};
+use trimloop_geom::Aabb;
 
-use crate::document::Document;
+use crate::display::{Colors, Display, Mode, short};
+use crate::document::{Document, Picked};
+use crate::measure::number;
+use crate::pick::Filter;
+use crate::section::Cut;
 
-/// What was asked for in the tree.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum TreeAction {
-    Show(usize, bool),
-    Isolate(usize),
-    Select(usize),
-    Fit(usize),
-}
-
-/// Nodes of the tree that are listed one below the other, before the rest is left out.
-const MOST_ROWS: usize = 4000;
-
-/// The instance tree: what is shown, what is selected.
-pub(crate) fn tree(ui: &mut Ui, document: &Document, search: &str) -> Option<TreeAction> {
-    let mut action = None;
-    let mut rows = 0;
-    let wanted = search.trim().to_lowercase();
-    for &root in &document.model.roots {
-        node(ui, document, root, &wanted, 0, &mut rows, &mut action);
-    }
-    if rows >= MOST_ROWS {
-        ui.label("… and more: search for a name");
-    }
-    action
-}
-
-fn matches_below(document: &Document, index: usize, wanted: &str) -> bool {
-    let own = &document.model.nodes[index];
-    own.name.to_lowercase().contains(wanted)
-        || own.children.iter().any(|&c| matches_below(document, c, wanted))
-}
-
-fn node(
-    ui: &mut Ui,
-    document: &Document,
-    index: usize,
-    wanted: &str,
-    depth: usize,
-    rows: &mut usize,
-    action: &mut Option<TreeAction>,
-) {
-    if *rows >= MOST_ROWS || (!wanted.is_empty() && !matches_below(document, index, wanted)) {
-        return;
-    }
-    *rows += 1;
-    let own = &document.model.nodes[index];
-    let scene = document.renderer.scene();
-    let instance = scene.instances.iter().position(|i| i.node == Some(index));
-    let name = if own.name.is_empty() { own.id.as_str() } else { own.name.as_str() };
-    let name = if name.is_empty() { "unnamed" } else { name };
-    let is_selected = document.selection.is_some_and(|s| scene.instances[s.instance].node == Some(index));
-    let row = |ui: &mut Ui, action: &mut Option<TreeAction>| {
-        let below = if own.children.is_empty() {
-            instance.into_iter().collect()
-        } else {
-            document.instances_below(index)
-        };
-        let mut is_shown = below.is_empty() || below.iter().any(|&i| scene.instances[i].is_shown);
-        let check = ui.checkbox(&mut is_shown, "").on_hover_text("show or hide");
-        if check.changed() {
-            *action = Some(TreeAction::Show(index, is_shown));
-        }
-        let faces = own.part.map(|part| scene.parts[part].faces.len());
-        let text = match faces {
-            Some(1) => format!("{name}  (1 face)"),
-            Some(faces) => format!("{name}  ({faces} faces)"),
-            None => name.to_owned(),
-        };
-        let label = ui.selectable_label(is_selected, text);
-        check.labelled_by(label.id);
-        if label.clicked() {
-            *action = Some(TreeAction::Select(index));
-        }
-        if label.double_clicked() {
-            *action = Some(TreeAction::Fit(index));
-        }
-        label.context_menu(|ui| {
-            if ui.button("Fit").clicked() {
-                *action = Some(TreeAction::Fit(index));
-                ui.close();
-            }
-            if ui.button("Isolate").clicked() {
-                *action = Some(TreeAction::Isolate(index));
-                ui.close();
-            }
-            if ui.button(if is_shown { "Hide" } else { "Show" }).clicked() {
-                *action = Some(TreeAction::Show(index, !is_shown));
-                ui.close();
-            }
-        });
-        if is_selected && document.place.is_some() {
-            label.scroll_to_me(None);
-        }
-    };
-    if own.children.is_empty() {
-        ui.horizontal(|ui| row(ui, action));
-        return;
-    }
-    let id = ui.make_persistent_id(("node", index));
-    let is_open = depth < 2 || !wanted.is_empty();
-    egui::collapsing_header::CollapsingState::load_with_default_open(ui.ctx(), id, is_open)
-        .show_header(ui, |ui| row(ui, action))
-        .body(|ui| {
-            for &child in &own.children {
-                node(ui, document, child, wanted, depth + 1, rows, action);
-            }
-        });
+/// What is shown below the tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Tab {
+    #[default]
+    Selection,
+    Section,
+    Display,
+    Report,
 }
 
 /// What is known of the selection.
-pub(crate) fn selection(ui: &mut Ui, document: &Document) {
+pub(crate) fn selection(ui: &mut Ui, document: &mut Document, filter: &mut Filter) {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("pick").weak());
+        ui.checkbox(&mut filter.faces, "faces");
+        ui.checkbox(&mut filter.edges, "edges");
+        ui.checkbox(&mut filter.vertices, "vertices");
+    });
     let facts = document.facts();
     if facts.is_empty() {
-        ui.label(RichText::new("Click a face to see what it is.").weak());
-        return;
+        ui.label(
+            RichText::new("Click a face, an edge or a vertex; with Shift a second one to measure.").weak(),
+        );
     }
     egui::Grid::new("facts").num_columns(2).spacing([12.0, 4.0]).show(ui, |ui| {
         for (name, value) in &facts {
@@ -129,28 +42,196 @@ pub(crate) fn selection(ui: &mut Ui, document: &Document) {
             ui.end_row();
         }
     });
-    if ui.button("Copy as text").clicked() {
-        let text: Vec<String> = facts.iter().map(|(name, value)| format!("{name}: {value}")).collect();
-        ui.ctx().copy_text(text.join("\n"));
+    if !facts.is_empty() {
+        ui.horizontal(|ui| {
+            if ui.button("Copy as text").clicked() {
+                let text: Vec<String> =
+                    facts.iter().map(|(name, value)| format!("{name}: {value}")).collect();
+                ui.ctx().copy_text(text.join("\n"));
+            }
+            let can_keep = document.measure.found.is_some();
+            if ui.add_enabled(can_keep, egui::Button::new("Keep (M)")).clicked() {
+                document.measure.keep();
+            }
+        });
+    }
+    let mut dropped = None;
+    for (k, kept) in document.measure.kept.iter().enumerate() {
+        ui.horizontal(|ui| {
+            if ui.small_button("×").on_hover_text("forget").clicked() {
+                dropped = Some(k);
+            }
+            ui.monospace(kept.label());
+        });
+    }
+    if let Some(k) = dropped {
+        document.measure.kept.remove(k);
     }
 }
 
+/// The section plane and its place.
+pub(crate) fn section(ui: &mut Ui, cut: &mut Cut, bounds: Aabb, document: &Document) {
+    ui.horizontal(|ui| {
+        ui.checkbox(&mut cut.is_on, "on (X)");
+        for (axis, name) in [(DVec3::X, "x"), (DVec3::Y, "y"), (DVec3::Z, "z")] {
+            let is_own = cut.normal.dot(axis).abs() > 1.0 - 1e-12;
+            if ui.selectable_label(is_own, name).clicked() {
+                cut.turn(axis, None);
+                cut.is_on = true;
+            }
+        }
+        if ui.button("flip").clicked() {
+            cut.flip(bounds);
+        }
+    });
+    ui.horizontal(|ui| {
+        let through = document.selected_face().and_then(|(picked, _)| picked.place);
+        let button = egui::Button::new("through the selection");
+        if ui.add_enabled(through.is_some(), button).on_hover_text("across the face's normal").clicked()
+            && let Some(place) = through
+        {
+            cut.turn(place.normal, Some(place.point));
+            cut.is_on = true;
+        }
+        ui.checkbox(&mut cut.has_gizmo, "handles");
+    });
+    let [low, high] = cut.range(bounds);
+    let mut offset = cut.plane(bounds).offset_mm;
+    if !(low < high) {
+        return;
+    }
+    ui.add_enabled_ui(cut.is_on, |ui| {
+        ui.spacing_mut().slider_width = (ui.available_width() - 110.0).max(60.0);
+        let slider = egui::Slider::new(&mut offset, low..=high).suffix(" mm").max_decimals(3);
+        if ui.add(slider).changed() {
+            cut.offset_mm = Some(offset);
+        }
+        let n = cut.normal;
+        ui.label(RichText::new(format!("normal {:.3}, {:.3}, {:.3}", n.x, n.y, n.z)).weak().monospace());
+    });
+    if document.caps.is_busy() {
+        ui.horizontal(|ui| {
+            ui.spinner();
+            ui.label(RichText::new("closing the cut").weak());
+        });
+    }
+}
+
+/// What was asked for in the display's panel.
+pub(crate) enum DisplayAction {
+    ChooseReference,
+}
+
+/// How the model is shown.
+pub(crate) fn display(
+    ui: &mut Ui,
+    display: &mut Display,
+    size_mm: f64,
+    document: &mut Document,
+) -> Option<DisplayAction> {
+    let mut action = None;
+    egui::ComboBox::from_label("faces").selected_text(name_of(&Mode::ALL, display.mode)).show_ui(ui, |ui| {
+        for (mode, name) in Mode::ALL {
+            ui.selectable_value(&mut display.mode, mode, name);
+        }
+    });
+    egui::ComboBox::from_label("colours").selected_text(name_of(&Colors::ALL, display.colors)).show_ui(
+        ui,
+        |ui| {
+            for (colors, name) in Colors::ALL {
+                ui.selectable_value(&mut display.colors, colors, name);
+            }
+        },
+    );
+    match display.colors {
+        Colors::Curvature => {
+            let mut radius = display.tightest(size_mm);
+            let speed = 0.02 * radius;
+            ui.horizontal(|ui| {
+                ui.label("red from a radius of");
+                let drag = egui::DragValue::new(&mut radius).speed(speed).range(1e-6..=1e6);
+                if ui.add(drag.suffix(" mm").max_decimals(3)).changed() {
+                    display.tightest_mm = Some(radius);
+                }
+            });
+        }
+        Colors::Deviation => {
+            if ui.button("Reference…").clicked() {
+                action = Some(DisplayAction::ChooseReference);
+            }
+            match &mut document.deviation {
+                None => {
+                    ui.label(RichText::new("Choose a mesh or a CAD file to compare with.").weak());
+                }
+                Some(deviation) => {
+                    let name = deviation.reference.file_name().unwrap_or_default().to_string_lossy();
+                    ui.label(format!("{name}: at most {} mm away", short(deviation.largest_mm())));
+                    if let Some(convention) = &deviation.convention {
+                        ui.label(RichText::new(convention).weak());
+                    }
+                    ui.horizontal(|ui| {
+                        ui.label("red from");
+                        let speed = 0.02 * deviation.most_mm;
+                        let drag = egui::DragValue::new(&mut deviation.most_mm)
+                            .speed(speed)
+                            .range(1e-9..=1e6)
+                            .suffix(" mm")
+                            .custom_formatter(|value, _| short(value));
+                        ui.add(drag);
+                    });
+                }
+            }
+        }
+        Colors::Own | Colors::Parts | Colors::Kinds => {}
+    }
+    let mut explosion = document.explosion();
+    ui.add_enabled_ui(document.can_explode(), |ui| {
+        ui.spacing_mut().slider_width = (ui.available_width() - 110.0).max(60.0);
+        let slider = egui::Slider::new(&mut explosion, 0.0..=2.0).show_value(false).text("apart");
+        if ui.add(slider).on_disabled_hover_text("there is only one part").changed() {
+            document.explode(explosion);
+        }
+    });
+    action
+}
+
+fn name_of<T: PartialEq>(all: &[(T, &'static str)], own: T) -> &'static str {
+    all.iter().find(|(other, _)| *other == own).map_or("", |(_, name)| name)
+}
+
 /// What was lost or approximated; a click selects the face.
-pub(crate) fn report(ui: &mut Ui, document: &Document) -> Option<Highlight> {
+pub(crate) fn report(ui: &mut Ui, document: &Document) -> Option<Picked> {
+    let faces = || document.model.parts.iter().flat_map(|part| &part.faces);
+    let lost = faces().filter(|face| matches!(face.geometry, FaceGeometry::Unreadable(_))).count();
+    ui.label(format!(
+        "{}, {} parts, {} faces{}",
+        document.model.source.schema,
+        document.model.parts.len(),
+        faces().count(),
+        if lost > 0 { format!(", {lost} unreadable") } else { String::new() }
+    ));
+    if let Some(seconds) = document.seconds {
+        ui.label(RichText::new(format!("read in {} s", number((seconds * 100.0).round() / 100.0))).weak());
+    }
     if document.diagnostics.is_empty() {
         ui.label(RichText::new("Nothing was lost.").weak());
         return None;
     }
     let mut chosen = None;
-    egui::ScrollArea::vertical().id_salt("report").max_height(180.0).show(ui, |ui| {
-        for diagnostic in document.diagnostics.iter().take(MOST_ROWS) {
+    let height = ui.text_style_height(&egui::TextStyle::Body);
+    let area = egui::ScrollArea::vertical().id_salt("report").auto_shrink([false, true]);
+    area.show_rows(ui, height, document.diagnostics.len(), |ui, range| {
+        for diagnostic in &document.diagnostics[range] {
             let color = match diagnostic.severity {
                 Severity::Error => ui.visuals().error_fg_color,
                 _ => ui.visuals().warn_fg_color,
             };
-            let text = RichText::new(format!("{}: {}", diagnostic.entity, diagnostic.message)).color(color);
-            if ui.add(egui::Label::new(text).wrap().sense(egui::Sense::click())).clicked() {
-                chosen = document.find_face(diagnostic.entity);
+            let text = format!("{}: {}", diagnostic.entity, diagnostic.message);
+            let face = document.find_face(diagnostic.face.unwrap_or(diagnostic.entity));
+            let label = egui::Label::new(RichText::new(&text).color(color)).truncate();
+            let label = if face.is_some() { label.sense(egui::Sense::click()) } else { label };
+            if ui.add(label).on_hover_text(text).clicked() {
+                chosen = face;
             }
         }
     });

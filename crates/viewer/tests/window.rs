@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use glam::DVec3;
 use trimloop_viewer::{App, ViewOptions};
 
 fn fixture(name: &str) -> PathBuf {
@@ -20,7 +21,8 @@ fn window(files: Vec<PathBuf>) -> Option<Harness<'static, App>> {
     }
     let options = ViewOptions { files, ..ViewOptions::default() };
     let build = |context: &mut eframe::CreationContext<'_>| {
-        App::new(&context.egui_ctx, context.wgpu_render_state.as_ref(), options).expect("a device")
+        App::new(&context.egui_ctx, context.wgpu_render_state.as_ref(), context.storage, options)
+            .expect("a device")
     };
     let mut harness = Harness::builder().with_size([1000.0, 700.0]).wgpu().build_eframe(build);
     settle(&mut harness);
@@ -44,6 +46,37 @@ fn fact(app: &App, name: &str) -> Option<String> {
     app.facts().into_iter().find(|(own, _)| own == name).map(|(_, value)| value)
 }
 
+/// Presses a key and waits for what comes of it.
+fn press(harness: &mut Harness<'_, App>, key: egui::Key) {
+    harness.key_press(key);
+    harness.run_steps(3);
+    settle(harness);
+}
+
+/// The pixels of the model's view.
+fn pixels(harness: &mut Harness<'_, App>) -> Vec<[u8; 4]> {
+    let picture = harness.render().expect("a picture");
+    let inside = picture.enumerate_pixels().filter(|(x, y, _)| *x > 320 && *y > 40);
+    inside.map(|(_, _, p)| p.0).collect()
+}
+
+/// Clicks where a place of the model is drawn.
+fn click_on(harness: &mut Harness<'_, App>, place: [f64; 3], is_added: bool) {
+    let at = harness.state().place_of(DVec3::from(place)).expect("in the picture");
+    let modifiers = if is_added { egui::Modifiers::SHIFT } else { egui::Modifiers::NONE };
+    harness.hover_at(at);
+    harness.step();
+    harness.event_modifiers(egui::Event::PointerMoved(at), modifiers);
+    for pressed in [true, false] {
+        let button = egui::PointerButton::Primary;
+        harness
+            .event_modifiers(egui::Event::PointerButton { pos: at, button, pressed, modifiers }, modifiers);
+        harness.step();
+    }
+    harness.run_steps(2);
+    settle(harness);
+}
+
 /// The place in the middle of the model's view.
 const MIDDLE: egui::Pos2 = egui::Pos2 { x: 650.0, y: 360.0 };
 
@@ -54,6 +87,7 @@ fn click(harness: &mut Harness<'_, App>, at: egui::Pos2) {
     harness.step();
     harness.drop_at(at);
     harness.run_steps(3);
+    settle(harness);
 }
 
 #[test]
@@ -157,4 +191,232 @@ fn a_file_that_is_written_again_is_read_again() {
     std::thread::sleep(Duration::from_millis(600));
     harness.run_steps(5);
     assert_eq!(harness.state().open_files(), ["part.step"]);
+}
+
+/// A number at the beginning of a fact.
+fn value(app: &App, name: &str) -> f64 {
+    let text = fact(app, name).unwrap_or_else(|| panic!("{name} in {:?}", app.facts()));
+    let digits: String = text.chars().take_while(|c| c.is_ascii_digit() || "-.".contains(*c)).collect();
+    digits.parse().unwrap_or_else(|_| panic!("{name}: {text}"))
+}
+
+#[test]
+fn vertices_edges_and_faces_are_picked_and_measured() {
+    let Some(mut harness) = window(vec![fixture("cadquery/box.step")]) else { return };
+    let size = box_of(&harness);
+    let [x, y, z] = [size[1].x, size[0].y, size[1].z];
+    let middle = 0.5 * (size[0] + size[1]);
+    // The upper face, an edge of it, a corner of it: the eye is in front of them, to the right.
+    click_on(&mut harness, [middle.x, middle.y, z], false);
+    assert_eq!(fact(harness.state(), "kind").as_deref(), Some("plane"));
+    let extent = size[1] - size[0];
+    assert!((value(harness.state(), "area") - extent.x * extent.y).abs() < 1e-5);
+    click_on(&mut harness, [middle.x, y, z], false);
+    assert_eq!(fact(harness.state(), "kind").as_deref(), Some("line"));
+    assert!((value(harness.state(), "length") - extent.x).abs() < 1e-5);
+    click_on(&mut harness, [x, y, z], false);
+    assert!(fact(harness.state(), "vertex").is_some(), "{:?}", harness.state().facts());
+    // From that corner to the edge on the other side.
+    click_on(&mut harness, [middle.x, size[1].y, z], true);
+    assert!((value(harness.state(), "distance") - extent.y).abs() < 1e-5);
+    // Two faces at a right angle.
+    click_on(&mut harness, [middle.x, middle.y, z], false);
+    click_on(&mut harness, [middle.x, y, middle.z], true);
+    assert!((value(harness.state(), "angle") - 90.0).abs() < 1e-9);
+    assert_eq!(value(harness.state(), "distance"), 0.0);
+    // A measure survives the section and stays when it is kept.
+    press(&mut harness, egui::Key::M);
+    press(&mut harness, egui::Key::X);
+    assert!((value(harness.state(), "angle") - 90.0).abs() < 1e-9);
+    press(&mut harness, egui::Key::Escape);
+    assert!(harness.state().facts().is_empty());
+    harness.get_by_label("Section").click();
+    harness.run_steps(2);
+    harness.get_by_label("through the selection");
+    harness.get_by_label("Selection").click();
+    harness.run_steps(2);
+    harness.get_by_label("0 mm");
+}
+
+/// The box of the box: its corners as the file's facts have them.
+fn box_of(harness: &Harness<'_, App>) -> [DVec3; 2] {
+    let model =
+        trimloop_import::read(&fixture("cadquery/box.step"), &trimloop_import::ImportOptions::default())
+            .expect("a model");
+    assert_eq!(harness.state().open_files(), ["box.step"]);
+    let points = || model.parts[0].vertices.iter().map(|v| v.point);
+    [points().reduce(DVec3::min).expect("points"), points().reduce(DVec3::max).expect("points")]
+}
+
+#[test]
+fn every_display_looks_different_and_comes_back() {
+    let Some(mut harness) = window(vec![fixture("cadquery/bracket.step")]) else { return };
+    harness.hover_at(egui::Pos2::new(10.0, 690.0));
+    let first = pixels(&mut harness);
+    let mut seen = vec![first.clone()];
+    for _ in 0..4 {
+        press(&mut harness, egui::Key::E);
+        let own = pixels(&mut harness);
+        assert!(!seen.contains(&own), "mode {}", seen.len());
+        seen.push(own);
+    }
+    press(&mut harness, egui::Key::E);
+    assert!(first == pixels(&mut harness));
+    harness.get_by_label("Appearance").click();
+    harness.run_steps(2);
+    for colors in ["by part", "by kind of surface", "by curvature"] {
+        harness.get_by_label("colours").click();
+        harness.run_steps(3);
+        harness.get_by_label(colors).click();
+        harness.run_steps(3);
+        settle(&mut harness);
+        harness.hover_at(egui::Pos2::new(10.0, 690.0));
+        harness.run_steps(2);
+        let own = pixels(&mut harness);
+        assert!(!seen.contains(&own), "{colors}");
+        seen.push(own);
+    }
+}
+
+/// An assembly of the fixtures.
+const ASSEMBLY: &str = "cadquery/assembly_flat.step";
+
+#[test]
+fn parts_are_found_hidden_isolated_and_taken_apart() {
+    let Some(mut harness) = window(vec![fixture(ASSEMBLY)]) else { return };
+    harness.hover_at(egui::Pos2::new(10.0, 690.0));
+    harness.run_steps(2);
+    let whole = pixels(&mut harness);
+    click(&mut harness, MIDDLE);
+    let part = fact(harness.state(), "part").expect("a part");
+    press(&mut harness, egui::Key::I);
+    press(&mut harness, egui::Key::Escape);
+    let alone = pixels(&mut harness);
+    assert!(whole != alone, "{part}");
+    press(&mut harness, egui::Key::A);
+    harness.hover_at(egui::Pos2::new(10.0, 690.0));
+    harness.run_steps(2);
+    assert!(whole == pixels(&mut harness));
+    click(&mut harness, MIDDLE);
+    press(&mut harness, egui::Key::H);
+    press(&mut harness, egui::Key::Escape);
+    assert!(whole != pixels(&mut harness));
+    press(&mut harness, egui::Key::A);
+    harness.get_by_label("Appearance").click();
+    harness.run_steps(2);
+    harness.get_by_label("apart");
+}
+
+#[test]
+fn what_is_shown_is_exported_compared_and_saved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let Some(mut harness) = window(vec![fixture("cadquery/bracket.step")]) else { return };
+    let glb = folder.path().join("bracket.glb");
+    harness.state_mut().export_to(glb.clone());
+    settle(&mut harness);
+    assert!(harness.state().messages().is_empty(), "{:?}", harness.state().messages());
+    assert!(harness.state().notes()[0].contains("no face lost"), "{:?}", harness.state().notes());
+    let file = gltf::Gltf::open(&glb).expect("a valid file");
+    assert_eq!(file.meshes().count(), 1);
+    // It is as far from the exact model as it was allowed to be: 0.1 % of the size.
+    let before = pixels(&mut harness);
+    harness.state_mut().compare_with(glb.clone());
+    settle(&mut harness);
+    harness.run_steps(3);
+    assert!(harness.state().messages().is_empty(), "{:?}", harness.state().messages());
+    assert!(before != pixels(&mut harness));
+    harness.state_mut().compare_with(fixture("broken/noise.step"));
+    settle(&mut harness);
+    assert_eq!(harness.state().messages().len(), 1);
+    let png = folder.path().join("bracket.png");
+    harness.state_mut().picture_to(&png, [320, 240]);
+    let picture = image::open(&png).expect("a picture");
+    assert_eq!((picture.width(), picture.height()), (320, 240));
+    harness.state_mut().picture_to(&folder.path().join("no/such/folder.png"), [320, 240]);
+    assert_eq!(harness.state().messages().len(), 2);
+    harness.state_mut().export_to(folder.path().join("no/such/folder.glb"));
+    settle(&mut harness);
+    assert_eq!(harness.state().messages().len(), 3);
+    // Nothing half-written stays behind.
+    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 2);
+}
+
+#[test]
+fn the_cube_touchpads_and_wheels_turn_and_zoom() {
+    let Some(mut harness) = window(vec![fixture("cadquery/box.step")]) else { return };
+    let first = harness.state().view();
+    let wheel = |source, unit, delta| egui::Event::MouseWheel {
+        unit,
+        delta,
+        phase: egui::TouchPhase::Move,
+        source,
+        modifiers: egui::Modifiers::NONE,
+    };
+    harness.hover_at(MIDDLE);
+    harness.step();
+    harness.event(wheel(
+        egui::MouseWheelSource::Trackpad,
+        egui::MouseWheelUnit::Point,
+        egui::Vec2::new(40.0, 0.0),
+    ));
+    harness.run_steps(10);
+    let turned = harness.state().view();
+    assert!(turned.direction != first.direction && turned.distance_mm == first.distance_mm);
+    harness.event(wheel(
+        egui::MouseWheelSource::Wheel,
+        egui::MouseWheelUnit::Line,
+        egui::Vec2::new(0.0, 1.0),
+    ));
+    harness.run_steps(10);
+    let nearer = harness.state().view();
+    assert!(nearer.direction == turned.direction && nearer.distance_mm < turned.distance_mm);
+    // The upper side of the cube in the corner.
+    press(&mut harness, egui::Key::Num1);
+    click(&mut harness, egui::Pos2::new(1000.0 - 62.0, 27.0 + 62.0 - 21.0));
+    let cube = harness.state().view().direction;
+    assert!((cube.elevation_deg - 45.0).abs() < 1.0, "{cube:?}");
+}
+
+/// What is kept between starts, in memory.
+#[derive(Default)]
+struct Kept(std::collections::HashMap<String, String>);
+
+impl eframe::Storage for Kept {
+    fn get_string(&self, key: &str) -> Option<String> {
+        self.0.get(key).cloned()
+    }
+
+    fn set_string(&mut self, key: &str, value: String) {
+        self.0.insert(key.to_owned(), value);
+    }
+
+    fn remove_string(&mut self, key: &str) {
+        self.0.remove(key);
+    }
+
+    fn flush(&mut self) {}
+}
+
+#[test]
+fn settings_and_recent_files_are_kept() {
+    let Some(mut harness) = window(vec![fixture("cadquery/box.step")]) else { return };
+    let mut kept = Kept::default();
+    press(&mut harness, egui::Key::P);
+    eframe::App::save(harness.state_mut(), &mut kept);
+    let text = kept.0.values().next().expect("settings").clone();
+    assert!(text.contains("box.step") && text.contains("is_parallel:true"), "{text}");
+    let build = |context: &mut eframe::CreationContext<'_>| {
+        let state = context.wgpu_render_state.as_ref();
+        App::new(&context.egui_ctx, state, Some(&kept), ViewOptions::default()).expect("a device")
+    };
+    let next = Harness::builder().with_size([800.0, 600.0]).wgpu().build_eframe(build);
+    assert!(next.state().view().is_parallel);
+    // What cannot be read is as good as nothing.
+    kept.0.values_mut().for_each(|text| *text = "(nonsense".to_owned());
+    let build = |context: &mut eframe::CreationContext<'_>| {
+        let state = context.wgpu_render_state.as_ref();
+        App::new(&context.egui_ctx, state, Some(&kept), ViewOptions::default()).expect("a device")
+    };
+    let next = Harness::builder().with_size([800.0, 600.0]).wgpu().build_eframe(build);
+    assert!(!next.state().view().is_parallel);
 }
