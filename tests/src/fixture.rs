@@ -108,7 +108,8 @@ pub fn named(name: &str) -> Fixture {
     all().into_iter().find(|f| f.name == name).unwrap_or_else(|| panic!("there is no fixture {name}"))
 }
 
-fn folder() -> PathBuf {
+/// The folder of the fixtures.
+pub fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("fixtures")
 }
 

@@ -283,6 +283,18 @@ pub struct ViewArguments {
     /// Axis of the models that points up
     #[arg(long, value_enum, default_value_t = Up::Z)]
     pub up: Up,
+
+    /// Colour the first file by its distance from this one, a mesh or a CAD file
+    #[arg(long, value_name = "REFERENCE", requires = "inputs")]
+    pub compare: Option<PathBuf>,
+
+    /// Destroy the graphics device once the files are read; for tests
+    #[arg(long, hide = true)]
+    pub lose_device: bool,
+
+    /// Where a window was that has lost its graphics device
+    #[arg(long, hide = true, value_name = "VIEW", allow_hyphen_values = true)]
+    pub resume: Option<trimloop_viewer::Resume>,
 }
 
 /// `trimloop render`.

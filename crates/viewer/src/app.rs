@@ -20,6 +20,7 @@ use crate::loader::{Arrival, Loading, ReadyPart};
 use crate::measure::Subject;
 use crate::navigation::{Navigation, Style, TwoFingers};
 use crate::panels::{self, DisplayAction, Tab};
+use crate::resume::{Resume, State};
 use crate::section::{self, Cut};
 use crate::settings::{self, Settings};
 use crate::tree::{Tree, TreeAction};
@@ -59,11 +60,17 @@ pub struct App {
     exporting: Option<Exporting>,
     /// A document's distances from a reference, on their way.
     comparing: Option<(u64, Job<Result<Distances, String>>)>,
+    /// What the first file is to be held against, once it is there.
+    reference: Option<PathBuf>,
+    /// For tests: the device is to be destroyed.
+    loses_device: bool,
     watch: Watch,
-    resume: Arc<Mutex<Option<Resume>>>,
+    shared: Arc<Mutex<State>>,
     /// The shape of the picture, as it was last.
     aspect: f64,
     is_fitted: bool,
+    /// The view is that of a window that is gone: nothing is fitted until somebody opens another file.
+    is_resumed: bool,
 }
 
 /// A file being read.
@@ -71,17 +78,6 @@ struct Load {
     loading: Loading,
     /// What arrived of a file that replaces another, which stays until all of it is there.
     held: Option<(Arc<trimloop_brep::Model>, Vec<ReadyPart>)>,
-}
-
-/// What a window that has lost its graphics device hands to the next one.
-#[derive(Clone, Debug)]
-pub struct Resume {
-    /// The files that were open.
-    pub files: Vec<PathBuf>,
-    /// From where they were seen.
-    pub view: Navigation,
-    /// What happened.
-    pub message: String,
 }
 
 /// Keys and what they do, as the help lists them.
@@ -169,24 +165,43 @@ impl App {
             is_export_open: false,
             exporting: None,
             comparing: None,
+            reference: options.reference,
+            loses_device: options.loses_device,
             watch: Watch::new(wake),
-            resume: Arc::default(),
+            shared: Arc::default(),
             aspect: 1.0,
             is_fitted: false,
+            is_resumed: false,
             context: context.clone(),
         };
+        if let Some(Resume { view, .. }) = options.resume {
+            if let Some(view) = view {
+                app.view = Navigation { up: options.up, ..view };
+                app.is_resumed = true;
+            }
+            app.messages.push("the graphics device was lost; the files were opened again".to_owned());
+        }
         options.files.into_iter().for_each(|file| app.open(file));
         Ok(app)
     }
 
-    /// Goes on where a window was that has lost its device; `resume` takes what the next one needs.
-    pub(crate) fn resume(&mut self, from: Option<Resume>, resume: Arc<Mutex<Option<Resume>>>) {
-        self.resume = resume;
-        if let Some(Resume { files, view, message }) = from {
-            files.into_iter().for_each(|file| self.open(file));
-            self.view = view;
-            self.is_fitted = true;
-            self.messages.push(message);
+    /// Keeps `state` up to date.
+    pub(crate) fn share(&mut self, state: Arc<Mutex<State>>) {
+        self.shared = state;
+    }
+
+    fn update_shared(&self) {
+        let mut state = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
+        if state.gpu.is_none() {
+            state.gpu = Some(self.gpu.clone());
+        }
+        state.view = self.is_fitted.then_some(self.view);
+        // What is still being read is wanted as well.
+        let loading =
+            self.loading.iter().filter(|load| load.loading.document.is_none()).map(|l| &l.loading.path);
+        let files = || self.documents.iter().map(|document| &document.path).chain(loading.clone());
+        if !state.files.iter().eq(files()) {
+            state.files = files().cloned().collect();
         }
     }
 
@@ -351,6 +366,9 @@ impl App {
             let wanted = load.loading.document;
             if let Some(place) = self.documents.iter().position(|own| Some(own.id) == wanted) {
                 self.documents[place].finish(seconds);
+                if let Some(reference) = self.reference.take() {
+                    self.compare_with_of(place, reference);
+                }
                 // What is there now may reach farther than what the file's vertices told.
                 if place == self.active && self.fitted == Some(self.view) {
                     self.is_fitted = false;
@@ -390,7 +408,7 @@ impl App {
 
     fn activate(&mut self, index: usize) {
         self.active = index;
-        self.is_fitted = false;
+        self.is_fitted = std::mem::take(&mut self.is_resumed);
         self.fitted = None;
         self.tree.reset();
         self.cut = Cut { has_gizmo: self.cut.has_gizmo, ..Cut::default() };
@@ -571,7 +589,11 @@ impl App {
 
     /// Begins to measure how far the file that is shown is from a reference.
     pub fn compare_with(&mut self, reference: PathBuf) {
-        let Some(document) = self.documents.get(self.active) else { return };
+        self.compare_with_of(self.active, reference);
+    }
+
+    fn compare_with_of(&mut self, index: usize, reference: PathBuf) {
+        let Some(document) = self.documents.get(index) else { return };
         let model = document.model.clone();
         let work = move || {
             deviation::measure(&model, &reference)
@@ -1017,10 +1039,17 @@ impl App {
     /// The whole window.
     pub fn show(&mut self, ui: &mut Ui) {
         if self.gpu.is_lost() {
-            self.hand_over(ui.ctx());
+            // Nothing can be drawn any more: another process goes on (see `run`).
+            ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
             return;
         }
         self.receive();
+        self.update_shared();
+        if self.loses_device && self.is_idle() && self.is_fitted {
+            // As a crash of its driver would.
+            self.loses_device = false;
+            self.gpu.device().destroy();
+        }
         let dropped = ui.ctx().input(|input| input.raw.dropped_files.clone());
         dropped.into_iter().for_each(|file| self.open(file.path().to_path_buf()));
         self.keys(ui);
@@ -1028,27 +1057,11 @@ impl App {
         if self.has_notices() {
             egui::Panel::bottom("notices").show(ui, |ui| self.notices(ui));
         }
-        egui::Panel::left("side").default_size(300.0).resizable(true).show(ui, |ui| self.side(ui));
+        egui::Panel::left("side").default_size(330.0).resizable(true).show(ui, |ui| self.side(ui));
         self.help(&ui.ctx().clone());
         self.export_dialog(&ui.ctx().clone());
         let frame = egui::Frame::NONE;
         egui::CentralPanel::default().frame(frame).show(ui, |ui| self.model(ui));
-    }
-
-    /// The device is gone, and nothing can be drawn any more: the window closes, and another one opens.
-    fn hand_over(&mut self, context: &egui::Context) {
-        let resume = Resume {
-            files: self.documents.iter().map(|document| document.path.clone()).collect(),
-            view: self.view,
-            message: "the graphics device was lost; the files were opened again on a new one".to_owned(),
-        };
-        *self.resume.lock().unwrap_or_else(PoisonError::into_inner) = Some(resume);
-        context.send_viewport_cmd(egui::ViewportCommand::Close);
-    }
-
-    /// Destroys the device, as a crash of its driver would; for tests.
-    pub fn lose_device(&self) {
-        self.gpu.device().destroy();
     }
 
     fn model(&mut self, ui: &mut Ui) {

@@ -15,7 +15,7 @@ use trimloop_trim::Tolerance;
 
 use crate::deviation::Deviation;
 use crate::loader::ReadyPart;
-use crate::measure::Measure;
+use crate::measure::{Measure, number, vector};
 use crate::section::Caps;
 
 /// An open file.
@@ -426,6 +426,7 @@ impl Document {
             }
         }
         say("part", if part.name.is_empty() { part.id.clone() } else { part.name.clone() });
+        let mut own_kind = None;
         match picked.feature {
             None => {
                 say("bodies", part.bodies.len().to_string());
@@ -443,6 +444,7 @@ impl Document {
                 if !own.name.is_empty() {
                     say("name", own.name.to_string());
                 }
+                own_kind = Some(surface_kind(own));
                 say("surface", surface_kind(own));
             }
             Some(Feature::Edge(edge)) => {
@@ -454,10 +456,13 @@ impl Document {
                 say("vertex", own.entity.to_string());
             }
         }
-        self.measure.facts().into_iter().for_each(|(name, value)| say(&name, value));
+        // Of faces, the kind stands there already, unless the surface is a plainer one than the file says.
+        let kind = own_kind.unwrap_or_default();
+        let facts = self.measure.facts().into_iter();
+        facts
+            .filter(|(name, value)| name != "kind" || *value != kind)
+            .for_each(|(name, value)| say(&name, value));
         if let Some(place) = picked.place {
-            let vector =
-                |v: DVec3, digits: usize| format!("{:.digits$}, {:.digits$}, {:.digits$}", v.x, v.y, v.z);
             // Of a cone, the radius depends on where.
             if let Some(radius) = place.radius_mm
                 && self
@@ -466,11 +471,11 @@ impl Document {
                     .as_ref()
                     .is_some_and(|m| m.facts.as_ref().is_some_and(|f| f.radius_mm.is_none()))
             {
-                say("radius here", format!("{radius:.6} mm"));
+                say("radius here", format!("{} mm", number(radius)));
             }
-            say("point", format!("{} mm", vector(place.point - self.moved(picked.instance), 5)));
-            say("normal", vector(place.normal, 6));
-            say("u, v", format!("{:.6}, {:.6}", place.uv.x, place.uv.y));
+            say("point", format!("{} mm", vector(place.point - self.moved(picked.instance))));
+            say("normal", vector(place.normal));
+            say("u, v", format!("{}, {}", number(place.uv.x), number(place.uv.y)));
         }
         out
     }

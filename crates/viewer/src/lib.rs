@@ -11,6 +11,7 @@ mod measure;
 mod navigation;
 mod panels;
 mod pick;
+mod resume;
 mod section;
 mod settings;
 mod tree;
@@ -21,8 +22,11 @@ mod watch;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
-pub use app::{App, Resume};
+pub use app::App;
+pub use resume::Resume;
+
 pub use navigation::{Navigation, Style};
+use resume::State;
 
 /// What the viewer starts with.
 #[derive(Clone, Debug, Default)]
@@ -31,6 +35,12 @@ pub struct ViewOptions {
     pub files: Vec<PathBuf>,
     /// Which axis points up.
     pub up: trimloop_render::Up,
+    /// What the first file is held against.
+    pub reference: Option<PathBuf>,
+    /// Whether the graphics device is destroyed once the files are read; for tests.
+    pub loses_device: bool,
+    /// Where a window was that has lost its graphics device.
+    pub resume: Option<Resume>,
 }
 
 /// Why there is no window.
@@ -44,32 +54,63 @@ pub enum ViewError {
     Window(String),
 }
 
-/// Devices that are lost one after the other, before the viewer gives up.
-const MOST_LOSSES: usize = 5;
+/// How a window ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ended {
+    /// Somebody closed it.
+    Closed,
+    /// Its graphics device was lost. A new process can open the same files and go on where this one was.
+    Lost(Vec<PathBuf>, Resume),
+}
 
-/// Opens a window and returns when it is closed. A window whose graphics device is lost is followed by another one with the
-/// same files and the same view.
+/// Devices that may be lost one after the other.
+const MOST_LOSSES: u32 = 5;
+
+/// Opens a window and returns when it is closed, or when its graphics device is lost.
 ///
 /// # Errors
 /// Where there is no display, or no graphics device.
-pub fn run(options: ViewOptions) -> Result<(), ViewError> {
-    let handed: Arc<Mutex<Option<Resume>>> = Arc::default();
-    let mut from = None;
-    for _ in 0..=MOST_LOSSES {
-        run_once(options.clone(), from.take(), handed.clone())?;
-        from = handed.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if from.is_none() {
-            return Ok(());
+pub fn run(options: ViewOptions) -> Result<Ended, ViewError> {
+    let state = Arc::new(Mutex::new(State::default()));
+    let losses = options.resume.map_or(0, |resume| resume.losses);
+    let told = hold_back_panics();
+    // What draws the window panics where its device is gone.
+    let shared = state.clone();
+    let done = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| run_once(options, shared)));
+    let last = state.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    if last.is_lost() {
+        if losses >= MOST_LOSSES {
+            return Err(ViewError::Window("the graphics device is lost again and again".to_owned()));
+        }
+        return Ok(Ended::Lost(last.files, Resume { view: last.view, losses: losses + 1 }));
+    }
+    match done {
+        Ok(done) => done.map(|()| Ended::Closed),
+        Err(panic) => {
+            if let Some(text) = told.lock().unwrap_or_else(PoisonError::into_inner).take() {
+                eprintln!("{text}");
+            }
+            std::panic::resume_unwind(panic)
         }
     }
-    Err(ViewError::Window("the graphics device is lost again and again".to_owned()))
 }
 
-fn run_once(
-    mut options: ViewOptions,
-    from: Option<Resume>,
-    handed: Arc<Mutex<Option<Resume>>>,
-) -> Result<(), ViewError> {
+/// Panics of this thread are not told before it is known whether they only come of a lost device; the last one's text.
+fn hold_back_panics() -> Arc<Mutex<Option<String>>> {
+    let told = Arc::new(Mutex::new(None));
+    let (usual, held, own) = (std::panic::take_hook(), told.clone(), std::thread::current().id());
+    std::panic::set_hook(Box::new(move |panic| {
+        if std::thread::current().id() == own {
+            let text = format!("{panic}\n{}", std::backtrace::Backtrace::capture());
+            *held.lock().unwrap_or_else(PoisonError::into_inner) = Some(text);
+        } else {
+            usual(panic);
+        }
+    }));
+    told
+}
+
+fn run_once(options: ViewOptions, state: Arc<Mutex<State>>) -> Result<(), ViewError> {
     let native = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_app_id("trimloop")
@@ -79,13 +120,10 @@ fn run_once(
         wgpu_options: graphics(),
         ..Default::default()
     };
-    if from.is_some() {
-        options.files.clear();
-    }
     let create = move |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
-        let state = context.wgpu_render_state.as_ref();
-        let mut app = App::new(&context.egui_ctx, state, context.storage, options)?;
-        app.resume(from, handed);
+        let mut app =
+            App::new(&context.egui_ctx, context.wgpu_render_state.as_ref(), context.storage, options)?;
+        app.share(state);
         Ok(Box::new(app))
     };
     eframe::run_native("Trimloop", native, Box::new(create))

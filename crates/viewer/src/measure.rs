@@ -208,7 +208,7 @@ pub(crate) fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-fn vector(v: DVec3) -> String {
+pub(crate) fn vector(v: DVec3) -> String {
     format!("{}, {}, {}", number(v.x), number(v.y), number(v.z))
 }
 

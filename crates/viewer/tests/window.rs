@@ -208,7 +208,7 @@ fn vertices_edges_and_faces_are_picked_and_measured() {
     let middle = 0.5 * (size[0] + size[1]);
     // The upper face, an edge of it, a corner of it: the eye is in front of them, to the right.
     click_on(&mut harness, [middle.x, middle.y, z], false);
-    assert_eq!(fact(harness.state(), "kind").as_deref(), Some("plane"));
+    assert_eq!(fact(harness.state(), "surface").as_deref(), Some("plane"));
     let extent = size[1] - size[0];
     assert!((value(harness.state(), "area") - extent.x * extent.y).abs() < 1e-5);
     click_on(&mut harness, [middle.x, y, z], false);

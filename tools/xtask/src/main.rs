@@ -2,6 +2,7 @@
 
 mod command;
 mod deviation;
+mod screenshots;
 mod validate_gltf;
 
 use std::ffi::OsStr;
@@ -52,6 +53,11 @@ enum Task {
         #[arg(long, default_value_t = 10)]
         minutes: u32,
     },
+    /// Photograph the viewer for the README and the tests (needs Xvfb)
+    Screenshots {
+        /// Only those whose name contains one of these words
+        words: Vec<String>,
+    },
     /// Build the documentation, warnings denied
     Docs,
 }
@@ -69,6 +75,7 @@ fn main() -> anyhow::Result<()> {
             cargo(&root, ["bench", "--workspace"].into_iter().map(str::to_string).chain(arguments))
         }
         Task::Fuzz { target, minutes } => fuzz(&root, &target, minutes),
+        Task::Screenshots { words } => screenshots::run(&root, &words),
         Task::Docs => {
             command::cargo_with(&root, ["doc", "--workspace", "--no-deps"], [("RUSTDOCFLAGS", "-D warnings")])
         }
