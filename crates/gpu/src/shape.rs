@@ -161,6 +161,13 @@ impl Shape {
         }
     }
 
+    /// Makes now what the first evaluation would make otherwise.
+    pub fn make_ready(&self) {
+        if let Some(net) = &self.net {
+            self.bezier(net);
+        }
+    }
+
     pub(crate) fn bezier(&self, net: &Net) -> &Bezier {
         self.bezier.get_or_init(|| net.to_bezier(|uv| self.normal(uv)))
     }

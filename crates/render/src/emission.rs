@@ -3,6 +3,7 @@
 
 use trimloop_gpu::{Gpu, GpuError, shaders};
 
+use crate::clock::Clock;
 use crate::frame::{Item, Lists};
 
 /// A piece at its place; as in `shaders/emit.wgsl`.
@@ -164,6 +165,7 @@ impl Emitter {
         emission: &Emission,
         cells: &wgpu::Buffer,
         bounds: &Bounds,
+        clock: Option<&Clock>,
     ) {
         let device = gpu.device();
         let pipelines = self.0.get_or_insert_with(|| Pipelines::new(gpu));
@@ -180,8 +182,10 @@ impl Emitter {
             layout: &pipelines.layout,
             entries: &entries,
         });
-        let mut pass = encoder
-            .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("emit"), timestamp_writes: None });
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("emit"),
+            timestamp_writes: clock.map(|clock| clock.of_compute(0)),
+        });
         pass.set_bind_group(0, &group, &[]);
         let steps = [(&pipelines.cull, count.div_ceil(64)), (&pipelines.sum, 1), (&pipelines.emit, *count)];
         for (pipeline, workgroups) in steps {

@@ -66,6 +66,13 @@ pub(crate) struct Shot<'a> {
     pub size: [u32; 2],
 }
 
+impl Visible {
+    /// How large it appears to be.
+    pub fn apparent(&self) -> f64 {
+        self.radius / self.center.length().max(f64::MIN_POSITIVE)
+    }
+}
+
 /// A face in the picture.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Visible {
@@ -179,7 +186,7 @@ impl Shot<'_> {
         let Visible { instance, key, center, radius, trim_level } = *one;
         let placed_in = &self.scene.instances[instance as usize];
         let face = &self.scene.parts[placed_in.part].faces[key.face as usize];
-        let own = stage.piece(&key)?;
+        let own = stage.piece(&key).or_else(|| stage.near(&key))?;
         // The patches of a hierarchy share the trim texture of the whole.
         let trimmed = match key.is_patch() {
             true => stage.piece(&PieceKey { tile: PieceKey::WHOLE, level: trim_level, ..key })?,

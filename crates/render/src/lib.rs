@@ -20,6 +20,7 @@ mod arena;
 mod border;
 mod camera;
 mod cap;
+mod clock;
 mod cpu;
 mod emission;
 mod error;

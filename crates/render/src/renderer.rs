@@ -1,6 +1,6 @@
 //! Draws pictures of a scene.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use glam::DAffine3;
 use rustc_hash::FxHashSet;
@@ -8,9 +8,10 @@ use trimloop_gpu::{Evaluator, Gpu, GpuError};
 use trimloop_mesh::{Monitor, Silent};
 
 use crate::camera::Camera;
+use crate::clock::{Clock, TIMED};
 use crate::emission::{Emission, Emitter, Strips};
 use crate::error::MOST_PIXELS;
-use crate::frame::{Numbered, Shot, Tile};
+use crate::frame::{Numbered, Shot, Tile, Visible};
 use crate::look::{Background, EdgeStyle, Look, encode, linear};
 use crate::passes::{Pass, Passes, Trim};
 use crate::picture::{Pick, Picture, Seen};
@@ -31,6 +32,7 @@ pub struct Renderer {
     statistics: FrameStatistics,
     /// The part and the instance that close what a section plane cuts open.
     caps: Option<(usize, usize)>,
+    clock: Option<Clock>,
 }
 
 /// What the last picture took.
@@ -44,24 +46,35 @@ pub struct FrameStatistics {
     pub evaluated: usize,
     /// Pixels that what is drawn may be off: more than asked for where the device has not enough memory for that.
     pub screen_error_px: f64,
+    /// Whether all of it is in the picture, or there was no time for that (see [`Renderer::paint`]).
+    pub is_complete: bool,
     /// Seconds to choose levels of detail and to evaluate.
     pub evaluate_s: f64,
     /// Seconds in all.
     pub total_s: f64,
     /// Bytes that the device holds for the scene.
     pub bytes: u64,
+    /// Milliseconds that the device took for the passes of an earlier picture in a window, as far as it can tell: emit,
+    /// solid, transparent, compose.
+    pub passes_ms: Option<[f64; TIMED.len()]>,
 }
 
 impl std::fmt::Display for FrameStatistics {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { faces, triangles, evaluated, screen_error_px, evaluate_s, total_s, bytes } = self;
+        let Self {
+            faces, triangles, evaluated, screen_error_px, evaluate_s, total_s, bytes, passes_ms, ..
+        } = self;
         let (evaluate_ms, total_ms) = (evaluate_s * 1e3, total_s * 1e3);
         write!(
             f,
             "{faces} faces within {screen_error_px} px, {triangles} triangles, {evaluated} points evaluated in {evaluate_ms:.1} ms, \
              {total_ms:.1} ms in all, {} KiB on the device",
             bytes / 1024
-        )
+        )?;
+        for (name, ms) in TIMED.iter().zip(passes_ms.iter().flatten()) {
+            write!(f, ", {name} {ms:.1} ms")?;
+        }
+        Ok(())
     }
 }
 
@@ -69,6 +82,8 @@ impl std::fmt::Display for FrameStatistics {
 const TILE: u32 = 2048;
 /// How many times the error that was asked for is tried at most, where memory is short.
 const COARSEST: f64 = 64.0;
+/// Pieces that are evaluated together where there is little time.
+const PARCEL: usize = 256;
 /// Pieces that the last picture did not need are kept while all of them take less than this.
 const KEPT_BYTES: u64 = 64 << 20;
 
@@ -89,6 +104,7 @@ impl Renderer {
             targets: None,
             statistics: FrameStatistics::default(),
             caps: None,
+            clock: Clock::new(gpu),
         })
     }
 
@@ -150,6 +166,14 @@ impl Renderer {
         self.statistics
     }
 
+    /// Milliseconds that the device took for the passes of the last picture whose times have come (see
+    /// [`FrameStatistics::passes_ms`]).
+    pub fn passes_ms(&mut self) -> Option<[f64; TIMED.len()]> {
+        let clock = self.clock.as_mut()?;
+        clock.collect(&self.gpu);
+        Some(clock.last_ms)
+    }
+
     /// A picture of `size` pixels.
     ///
     /// # Errors
@@ -171,14 +195,13 @@ impl Renderer {
     ) -> Result<Picture, RenderError> {
         check(size)?;
         let start = Instant::now();
-        let (emission, _) = self.prepare(camera, size, look, false)?;
+        let (emission, _) = self.prepare(camera, size, look, false, None)?;
         self.statistics.triangles = emission.triangles() as usize;
         let mut out = Picture {
             width: size[0],
             height: size[1],
             rgba: vec![0; size[0] as usize * size[1] as usize * 4],
         };
-        let samples = if look.samples > 1 { 4 } else { 1 };
         let rounds = rounds(look);
         for mut tile in tiles(size) {
             let mut sums = Vec::new();
@@ -187,7 +210,7 @@ impl Renderer {
                     return Err(trimloop_mesh::Cancelled.into());
                 }
                 tile.jitter = jitter(round, rounds);
-                let own = self.tile(camera, size, look, &emission, &tile, samples)?;
+                let own = self.tile(camera, size, look, &emission, &tile)?;
                 if rounds == 1 {
                     out.paste(&own, tile.column, tile.row);
                 } else {
@@ -211,6 +234,9 @@ impl Renderer {
     /// A picture of `size` pixels that stays on the device, for a window: red, green, blue, opacity, as in a PNG file. The
     /// texture is the same as long as the size is; the next picture is drawn over it.
     ///
+    /// When evaluating takes longer than `budget`, the rest is left to the next picture: what is there at another level of
+    /// detail stands for it, what is not there at all is missing, and [`FrameStatistics::is_complete`] says so.
+    ///
     /// # Errors
     /// A size that cannot be, and what the device refuses.
     pub fn paint(
@@ -218,19 +244,32 @@ impl Renderer {
         camera: &Camera,
         size: [u32; 2],
         look: &Look,
+        budget: Duration,
     ) -> Result<wgpu::Texture, RenderError> {
         check(size)?;
         let start = Instant::now();
-        let (emission, _) = self.prepare(camera, size, look, false)?;
+        let (emission, _) = self.prepare(camera, size, look, false, Some(budget))?;
         self.statistics.triangles = emission.triangles() as usize;
-        let samples = if look.samples > 1 { 4 } else { 1 };
         let tile = Tile { column: 0, row: 0, size, jitter: [0.0; 2] };
         let gpu = self.gpu.clone();
+        if let Some(clock) = &mut self.clock {
+            clock.collect(&gpu);
+        }
+        let mut clock = self.clock.take_if(|clock| clock.is_free());
         let texture = gpu.scoped(&format!("draw {} x {} pixels", size[0], size[1]), || {
-            let (encoder, texture) = self.encode(camera, size, look, &emission, &tile, samples)?;
+            let (mut encoder, texture) = self.encode(camera, size, look, &emission, &tile, clock.as_ref())?;
+            if let Some(clock) = &clock {
+                clock.resolve(&mut encoder);
+            }
             gpu.queue().submit([encoder.finish()]);
+            if let Some(clock) = &mut clock {
+                clock.ask();
+            }
             Ok(texture)
-        })?;
+        });
+        self.clock = clock.or(self.clock.take());
+        let texture = texture?;
+        self.statistics.passes_ms = self.clock.as_ref().map(|clock| clock.last_ms);
         self.statistics.total_s = start.elapsed().as_secs_f64();
         Ok(texture)
     }
@@ -241,7 +280,7 @@ impl Renderer {
     /// A size that cannot be, and what the device refuses.
     pub fn seen(&mut self, camera: &Camera, size: [u32; 2], look: &Look) -> Result<Seen, RenderError> {
         check(size)?;
-        let (emission, faces) = self.prepare(camera, size, look, true)?;
+        let (emission, faces) = self.prepare(camera, size, look, true, None)?;
         let mut out = Seen::empty(size);
         for tile in tiles(size) {
             let texels = self.identify(camera, size, look, &emission, &tile)?;
@@ -265,7 +304,7 @@ impl Renderer {
         look: &Look,
     ) -> Result<Pending, RenderError> {
         check(size)?;
-        let (emission, faces) = self.prepare(camera, size, look, true)?;
+        let (emission, faces) = self.prepare(camera, size, look, true, None)?;
         let mut parts = Vec::new();
         for tile in tiles(size) {
             let (buffer, row) = self.encode_identify(camera, size, look, &emission, &tile)?;
@@ -322,7 +361,7 @@ impl Renderer {
     ) -> Result<Identified, RenderError> {
         check(size)?;
         check(count)?;
-        let (emission, faces) = self.prepare(camera, size, look, true)?;
+        let (emission, faces) = self.prepare(camera, size, look, true, None)?;
         let tile = Tile { column: low[0], row: low[1], size: count, jitter: [0.0; 2] };
         let texels = self.identify(camera, size, look, &emission, &tile)?;
         let texels = texels.into_iter().map(|[id, u, v, _]| [id, u, v]).collect();
@@ -376,7 +415,7 @@ impl Renderer {
         if column >= size[0] || row >= size[1] {
             return Ok(None);
         }
-        let (emission, faces) = self.prepare(camera, size, look, true)?;
+        let (emission, faces) = self.prepare(camera, size, look, true, None)?;
         let tile = Tile { column, row, size: [1, 1], jitter: [0.0; 2] };
         let texels = self.identify(camera, size, look, &emission, &tile)?;
         let at = glam::DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
@@ -391,6 +430,7 @@ impl Renderer {
         size: [u32; 2],
         look: &Look,
         is_solid: bool,
+        budget: Option<Duration>,
     ) -> Result<(Emission, Vec<Numbered>), RenderError> {
         let start = Instant::now();
         let evaluator = &Evaluator::on_gpu(&self.gpu, look.lod.backend());
@@ -398,19 +438,41 @@ impl Renderer {
         let wanted_px = look.screen_error_px;
         let (gpu, scene) = (&self.gpu, &self.scene);
         self.stage.evaluated = 0;
+        let mut is_complete = true;
         let visible = loop {
             let shot = Shot { scene, camera, look: &look, size };
             let visible = shot.visible();
             let keys: Vec<PieceKey> = visible.iter().map(|v| v.key).collect();
             let is_coarser = look.screen_error_px > wanted_px;
-            if is_coarser || self.stage.used_bytes() > KEPT_BYTES {
+            // What is not needed any more stands for what is not there yet.
+            if is_coarser || (budget.is_none() && self.stage.used_bytes() > KEPT_BYTES) {
                 let used: FxHashSet<PieceKey> = keys.iter().copied().collect();
                 self.stage.forget(|key| used.contains(key));
             }
             let stage = &mut self.stage;
-            match gpu
-                .scoped("evaluate the faces in the picture", || stage.evaluate(gpu, evaluator, scene, keys))
-            {
+            let parcels = match budget {
+                Some(_) => parcels(stage, &visible),
+                None => vec![keys],
+            };
+            let mut done = Ok(());
+            // The first one may have to wait for the picture before.
+            let mut since = None;
+            for parcel in parcels {
+                is_complete = match (budget, since) {
+                    (Some(budget), Some(since)) => Instant::elapsed(&since) <= budget,
+                    _ => true,
+                };
+                if !is_complete {
+                    break;
+                }
+                let evaluate = || stage.evaluate(gpu, evaluator, scene, parcel);
+                done = gpu.scoped("evaluate the faces in the picture", evaluate);
+                since = since.or(Some(Instant::now()));
+                if done.is_err() {
+                    break;
+                }
+            }
+            match done {
                 // A coarser picture is better than none.
                 Err(GpuError::OutOfMemory { .. }) if look.screen_error_px < COARSEST * wanted_px => {
                     look.screen_error_px *= 2.0;
@@ -421,8 +483,13 @@ impl Renderer {
                 }
             }
         };
+        if budget.is_some() && is_complete && self.stage.used_bytes() > KEPT_BYTES {
+            let used: FxHashSet<PieceKey> = visible.iter().map(|v| v.key).collect();
+            self.stage.forget(|key| used.contains(key));
+        }
         let look = &look;
         self.statistics = FrameStatistics {
+            is_complete,
             faces: visible.iter().filter(|v| v.key.tile == 0).count(),
             evaluated: self.stage.evaluated,
             evaluate_s: start.elapsed().as_secs_f64(),
@@ -445,13 +512,11 @@ impl Renderer {
         look: &Look,
         emission: &Emission,
         tile: &Tile,
-        samples: u32,
     ) -> Result<Picture, RenderError> {
         let name = format!("draw {} x {} pixels", tile.size[0], tile.size[1]);
         let gpu = self.gpu.clone();
-        let rgba = read_back(&gpu, &name, tile.size, 4, || {
-            self.encode(camera, size, look, emission, tile, samples)
-        })?;
+        let rgba =
+            read_back(&gpu, &name, tile.size, 4, || self.encode(camera, size, look, emission, tile, None))?;
         Ok(Picture { width: tile.size[0], height: tile.size[1], rgba })
     }
 
@@ -463,8 +528,9 @@ impl Renderer {
         look: &Look,
         emission: &Emission,
         tile: &Tile,
-        samples: u32,
+        clock: Option<&Clock>,
     ) -> Result<(wgpu::CommandEncoder, wgpu::Texture), GpuError> {
+        let samples = if look.samples > 1 { 4 } else { 1 };
         let gpu = self.gpu.clone();
         let shot = Shot { scene: &self.scene, camera, look, size };
         let is_fit = |t: &Targets| t.size == tile.size && t.samples == samples;
@@ -474,12 +540,13 @@ impl Renderer {
         let bound = Bound::new(&gpu, &self.passes, &self.stage, &shot, emission, tile);
         let mut encoder = gpu.device().create_command_encoder(&Default::default());
         let cells = self.stage.cells.buffer();
-        self.emitter.encode(&gpu, &mut encoder, emission, cells, &shot.bounds(tile));
+        self.emitter.encode(&gpu, &mut encoder, emission, cells, &shot.bounds(tile), clock);
         let Some(targets) = &self.targets else {
             return Err(GpuError::Request("there is nothing to draw into".to_owned()));
         };
-        draw(&gpu, &mut encoder, &mut self.passes, targets, &bound, look, samples);
-        compose(&gpu, &mut encoder, &mut self.passes, targets, &shot, tile);
+        let timed = Timed { gpu: &gpu, clock };
+        draw(timed, &mut encoder, &mut self.passes, targets, &bound, look, samples);
+        compose(timed, &mut encoder, &mut self.passes, targets, &shot, tile);
         Ok((encoder, targets.picture.clone()))
     }
 
@@ -514,7 +581,7 @@ impl Renderer {
         let targets = IdTargets::new(gpu, tile.size);
         let bound = Bound::new(gpu, passes, &self.stage, &shot, emission, tile);
         let mut encoder = gpu.device().create_command_encoder(&Default::default());
-        emitter.encode(gpu, &mut encoder, emission, self.stage.cells.buffer(), &shot.bounds(tile));
+        emitter.encode(gpu, &mut encoder, emission, self.stage.cells.buffer(), &shot.bounds(tile), None);
         let view = view_of(&targets.ids);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("identify"),
@@ -584,6 +651,13 @@ struct PendingTile {
 /// Four words.
 fn texel(bytes: &[u8]) -> [u32; 4] {
     [0, 4, 8, 12].map(|k| u32::from_ne_bytes([bytes[k], bytes[k + 1], bytes[k + 2], bytes[k + 3]]))
+}
+
+/// What of a picture is not evaluated yet, in parcels; what appears to be large comes first.
+fn parcels(stage: &Stage, visible: &[Visible]) -> Vec<Vec<PieceKey>> {
+    let mut missing: Vec<&Visible> = visible.iter().filter(|v| stage.piece(&v.key).is_none()).collect();
+    missing.sort_by(|a, b| b.apparent().total_cmp(&a.apparent()));
+    missing.chunks(PARCEL).map(|some| some.iter().map(|v| v.key).collect()).collect()
 }
 
 /// What trims the cells that are not whole.
@@ -743,8 +817,15 @@ impl<'a> Bound<'a> {
     }
 }
 
+/// A device, and the clock that notes what it does.
+#[derive(Clone, Copy)]
+struct Timed<'a> {
+    gpu: &'a Gpu,
+    clock: Option<&'a Clock>,
+}
+
 fn draw(
-    gpu: &Gpu,
+    Timed { gpu, clock }: Timed<'_>,
     encoder: &mut wgpu::CommandEncoder,
     passes: &mut Passes,
     targets: &Targets,
@@ -756,6 +837,7 @@ fn draw(
         label: Some("solid"),
         color_attachments: &[targets.color.attachment([0.0; 4])],
         depth_stencil_attachment: Some(depth_attachment(&targets.depth, true)),
+        timestamp_writes: clock.map(|clock| clock.of_render(1)),
         ..Default::default()
     });
     bound.trims(&mut pass);
@@ -778,6 +860,7 @@ fn draw(
         label: Some("transparent"),
         color_attachments: &[targets.sums.attachment([0.0; 4]), targets.through.attachment([1.0; 4])],
         depth_stencil_attachment: Some(depth_attachment(&targets.depth, false)),
+        timestamp_writes: clock.map(|clock| clock.of_render(2)),
         ..Default::default()
     });
     bound.trims(&mut pass);
@@ -798,7 +881,7 @@ struct Ground {
 }
 
 fn compose(
-    gpu: &Gpu,
+    Timed { gpu, clock }: Timed<'_>,
     encoder: &mut wgpu::CommandEncoder,
     passes: &mut Passes,
     targets: &Targets,
@@ -841,6 +924,7 @@ fn compose(
                 store: wgpu::StoreOp::Store,
             },
         })],
+        timestamp_writes: clock.map(|clock| clock.of_render(3)),
         ..Default::default()
     });
     pass.set_pipeline(&pipeline);

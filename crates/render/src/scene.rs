@@ -269,6 +269,7 @@ impl SceneFace {
         if !found.shape.is_nurbs() {
             return out;
         }
+        found.shape.make_ready();
         let curves = trim_curves_of_edges(part, index, samples, &found.domain, TRIM_FINENESS);
         let skirts = skirts_of(part, &found.shape, &curves, |edge| edges.is_shared(edge));
         let chains: Vec<Vec<Cubic>> =

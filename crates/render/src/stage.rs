@@ -25,6 +25,8 @@ const STRIPS: f64 = 0.5;
 
 /// Trim curves of hierarchies, and their chords, may be off by this share.
 const TRIMS: f64 = 0.25;
+/// Doublings and halvings of what a piece may be off, within which it stands for one that is not there yet.
+const FARTHEST: i32 = 10;
 /// Pieces of a patch's side, each of which is drawn or not.
 const SIDE_PIECES: u32 = 16;
 
@@ -393,6 +395,12 @@ impl Stage {
     /// A face at a level, once it is evaluated.
     pub fn piece(&self, key: &PieceKey) -> Option<&Piece> {
         self.pieces.get(key)
+    }
+
+    /// A face at the level that is nearest to one that is not there.
+    pub fn near(&self, key: &PieceKey) -> Option<&Piece> {
+        let at = |off: i32| self.pieces.get(&PieceKey { level: key.level + off, ..*key });
+        (1..=FARTHEST).find_map(|off| at(off).or_else(|| at(-off)))
     }
 
     /// Evaluates what of `wanted` is not there yet, all of it or nothing.

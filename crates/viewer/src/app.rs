@@ -104,6 +104,8 @@ const KEYS: [(&str, &str); 21] = [
     ("Ctrl+E", "export to glTF"),
     ("Ctrl+W", "close the file"),
 ];
+/// The height of messages, points.
+const MOST_NOTICES: f32 = 120.0;
 /// Views that can be returned to.
 const MOST_PAST: usize = 100;
 /// Files that can be opened, by the ends of their names.
@@ -238,6 +240,11 @@ impl App {
     /// Where a place of the model is drawn in the window.
     pub fn place_of(&self, point: DVec3) -> Option<egui::Pos2> {
         self.viewport.frame?.at(point)
+    }
+
+    /// Whether faces of the model have been drawn.
+    pub fn has_picture(&self) -> bool {
+        self.viewport.statistics.faces > 0
     }
 
     /// From where the model is seen.
@@ -886,6 +893,12 @@ impl App {
         if is_stopped {
             self.comparing = None;
         }
+        let area = egui::ScrollArea::vertical().id_salt("notices").max_height(MOST_NOTICES);
+        area.show(ui, |ui| self.told(ui));
+    }
+
+    /// What went wrong, and what went well.
+    fn told(&mut self, ui: &mut Ui) {
         let error = ui.visuals().error_fg_color;
         let usual = ui.visuals().text_color();
         for (list, color) in [(&mut self.messages, error), (&mut self.notes, usual)] {
@@ -1121,16 +1134,19 @@ impl App {
         let Some(document) = self.documents.get(self.active) else { return };
         display::legend(ui, rect, &self.display, document, bounds.diagonal());
         if self.settings.are_statistics_shown {
-            let text = self.statistics(document);
+            let text = self.statistics();
             let at = rect.left_bottom() + egui::vec2(8.0, -8.0);
             let font = egui::FontId::monospace(11.0);
             ui.painter().text(at, egui::Align2::LEFT_BOTTOM, text, font, egui::Color32::from_gray(60));
         }
     }
 
-    fn statistics(&self, document: &Document) -> String {
+    fn statistics(&mut self) -> String {
+        let Some(document) = self.documents.get_mut(self.active) else { return String::new() };
+        let mut frame = self.viewport.statistics;
+        frame.passes_ms = document.renderer.passes_ms();
         let read = document.seconds.map_or("reading".to_owned(), |s| format!("read in {s:.2} s"));
-        format!("{}\n{}, {read}", document.renderer.statistics(), self.look.lod.name())
+        format!("{frame}\n{}, {read}", self.look.lod.name()).replace(", emit", "\nemit")
     }
 
     /// One thing that is selected is measured, or two.

@@ -1,6 +1,29 @@
 //! Work that must not keep the window waiting.
 
+use std::sync::OnceLock;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+use rayon::ThreadPool;
+
+/// Workers of their own: those of the window must not wait for what others are busy with.
+#[derive(Debug)]
+pub(crate) struct Workers(OnceLock<Option<ThreadPool>>);
+
+/// Reads files.
+pub(crate) static READERS: Workers = Workers(OnceLock::new());
+/// Measures, cuts, compares and writes.
+static HELPERS: Workers = Workers(OnceLock::new());
+
+impl Workers {
+    /// Does `work` there; on the usual workers where threads cannot be had.
+    pub fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        let make = || rayon::ThreadPoolBuilder::new().stack_size(8 << 20).build().ok();
+        match self.0.get_or_init(make) {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
+    }
+}
 
 /// A result on its way from another thread.
 #[derive(Debug)]
@@ -23,7 +46,7 @@ impl<T: Send + 'static> Job<T> {
         let (sender, done) = channel();
         let context = context.clone();
         std::thread::spawn(move || {
-            if let Ok(result) = std::panic::catch_unwind(std::panic::AssertUnwindSafe(work)) {
+            if let Ok(result) = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| HELPERS.run(work))) {
                 // Nobody listens where it is not wanted any more.
                 let _ = sender.send(result);
             }

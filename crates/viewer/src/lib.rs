@@ -130,10 +130,12 @@ fn run_once(options: ViewOptions, state: Arc<Mutex<State>>) -> Result<(), ViewEr
         .map_err(|error| ViewError::Window(error.to_string()))
 }
 
-/// The device is opened as the renderer likes it: with large buffers where there are any.
+/// The device is opened as the renderer likes it: with large buffers where there are any, and never by OpenGL, which lacks what
+/// its shaders need.
 fn graphics() -> egui_wgpu::WgpuConfiguration {
     let mut configuration = egui_wgpu::WgpuConfiguration::default();
     if let egui_wgpu::WgpuSetup::CreateNew(setup) = &mut configuration.wgpu_setup {
+        setup.instance_descriptor.backends &= wgpu::Backends::PRIMARY;
         setup.device_descriptor = Arc::new(trimloop_gpu::Gpu::descriptor);
     }
     configuration

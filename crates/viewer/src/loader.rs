@@ -12,6 +12,8 @@ use trimloop_import::ImportOptions;
 use trimloop_mesh::Monitor;
 use trimloop_render::ScenePart;
 
+use crate::job::READERS;
+
 /// A file on its way.
 #[derive(Debug)]
 pub(crate) struct Loading {
@@ -67,7 +69,7 @@ impl Loading {
         let (sender, arrivals) = channel();
         let (own, from) = (progress.clone(), path.clone());
         std::thread::spawn(move || {
-            let read = || load(&from, &own, &sender, &wake);
+            let read = || READERS.run(|| load(&from, &own, &sender, &wake));
             let told = std::panic::catch_unwind(std::panic::AssertUnwindSafe(read))
                 .unwrap_or_else(|_| Err("the program failed on this file; please report it".to_owned()));
             if let Err(reason) = told {
@@ -116,7 +118,7 @@ fn load(
     path: &Path,
     progress: &LoadProgress,
     sender: &Sender<Arrival>,
-    wake: &(dyn Fn() + Sync),
+    wake: &(dyn Fn() + Send + Sync),
 ) -> Result<(), String> {
     let start = std::time::Instant::now();
     let model = trimloop_import::read(path, &ImportOptions::default()).map_err(|error| error.to_string())?;

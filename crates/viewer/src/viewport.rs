@@ -7,7 +7,7 @@ use egui_wgpu::RenderState;
 use glam::{DVec2, DVec3};
 use trimloop_geom::Aabb;
 use trimloop_measure::Feature;
-use trimloop_render::{Identified, Look, Pending, RenderError};
+use trimloop_render::{FrameStatistics, Identified, Look, Pending, RenderError};
 
 use crate::document::{Document, Picked};
 use crate::measure::Measured;
@@ -34,6 +34,8 @@ pub(crate) struct Viewport {
     pub hovered: Option<Picked>,
     /// The picture as it was shown last.
     pub frame: Option<Frame>,
+    /// What it took.
+    pub statistics: FrameStatistics,
 }
 
 /// What is known of the pixels.
@@ -94,6 +96,10 @@ pub(crate) struct Outcome {
 const ZOOM_PER_POINT: f64 = 0.0025;
 /// What the mouse may hover over is found out when the view is at rest for so long.
 const REST: Duration = Duration::from_millis(60);
+/// What a picture needs more time to evaluate for comes in several frames. Where the device is a program, which takes as long
+/// for each of them, they are fewer.
+const BUDGET: Duration = Duration::from_millis(25);
+const SOFTWARE_BUDGET: Duration = Duration::from_millis(200);
 /// While parts arrive, the picture is drawn no more often than this.
 const PATIENCE_S: f64 = 0.15;
 
@@ -215,8 +221,16 @@ impl Viewport {
         // What failed once would fail again, frame by frame.
         self.drawn = Some(wanted);
         self.drawn_at = Some(start);
-        let texture = renderer.paint(&frame.camera, wanted.size, &wanted.look)?;
+        let is_software = state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        let budget = if is_software { SOFTWARE_BUDGET } else { BUDGET };
+        let texture = renderer.paint(&frame.camera, wanted.size, &wanted.look, budget)?;
         self.paint_s = start.elapsed().as_secs_f64();
+        self.statistics = renderer.statistics();
+        if !self.statistics.is_complete {
+            // The rest comes with the next frames.
+            self.drawn = None;
+            ui.ctx().request_repaint();
+        }
         self.register(state, texture);
         Ok(())
     }
@@ -247,7 +261,8 @@ impl Viewport {
             Seen::Known(_) => {}
             Seen::Unknown => {
                 let rest = self.drawn_at.map_or(REST, |at| at.elapsed());
-                if self.drag.is_some() || self.handle.is_some() || document.seconds.is_none() {
+                let is_moving = self.drag.is_some() || self.handle.is_some();
+                if is_moving || self.drawn.is_none() || document.seconds.is_none() {
                     return Ok(());
                 }
                 if rest < REST {
