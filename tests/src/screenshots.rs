@@ -75,9 +75,6 @@ fn measure(window: &Window) -> anyhow::Result<()> {
 
 fn section(window: &Window) -> anyhow::Result<()> {
     window.press(b'x', With::Nothing)?;
-    window.settled()?;
-    // Back into the ball, and a little aside.
-    window.drag(1, [420, 700], [520, 720])?;
     window.move_to(ASIDE)
 }
 

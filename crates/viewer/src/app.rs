@@ -933,8 +933,9 @@ impl App {
         let Some(document) = self.documents.get_mut(self.active) else { return };
         let mut chosen = None;
         let mut asked = None;
-        let height = ui.available_height();
-        egui::Panel::bottom("details").resizable(true).default_size(0.45 * height).show(ui, |ui| {
+        // Not of what is left: messages come and go.
+        let height = ui.ctx().content_rect().height();
+        egui::Panel::bottom("details").resizable(true).default_size(0.42 * height).show(ui, |ui| {
             ui.add_space(4.0);
             let count = document.diagnostics.len();
             let report = if count > 0 { format!("Report ({count})") } else { "Report".to_owned() };

@@ -1,5 +1,6 @@
 //! The model coloured by its distance from a reference, as `trimloop compare` measures it.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -46,6 +47,8 @@ struct Measured {
     triangles: Vec<[u32; 3]>,
 }
 
+/// Sides of triangles are no longer than this share of the model's size.
+const LONGEST: f64 = 0.012;
 /// Colours between blue and red.
 const BANDS: usize = 24;
 
@@ -82,6 +85,7 @@ pub(crate) fn measure(model: &Model, reference: &Path) -> Result<Distances, Stri
             placed.push((part, *world));
         }
     });
+    let longest = LONGEST * own.triangles.bounds().diagonal();
     let limit = own.triangles.bounds().union(shape.triangles.bounds()).diagonal();
     for (part, world) in placed {
         let mesh = &meshes[part];
@@ -90,16 +94,17 @@ pub(crate) fn measure(model: &Model, reference: &Path) -> Result<Distances, Stri
             if face.hidden || own.triangles.is_empty() {
                 continue;
             }
-            let points: Vec<DVec3> = own
+            let mut points: Vec<DVec3> = own
                 .vertices
                 .iter()
                 .map(|v| world.transform_point3(mesh.positions[v.position as usize]))
                 .collect();
-            let normals = own.vertices.iter().map(|v| (turn * v.normal).normalize_or_zero()).collect();
+            let mut normals = own.vertices.iter().map(|v| (turn * v.normal).normalize_or_zero()).collect();
+            let triangles = divide(&mut points, &mut normals, &own.triangles, longest);
             let distance =
                 |p: &DVec3| target.nearest(*p, limit).map_or(0.0, |(nearest, _)| nearest.distance(*p));
             let distances = points.par_iter().map(distance).collect();
-            parts.push(Measured { points, normals, distances, triangles: own.triangles.clone() });
+            parts.push(Measured { points, normals, distances, triangles });
         }
     }
     let mut all: Vec<f64> = parts.iter().flat_map(|part| &part.distances).copied().collect();
@@ -107,6 +112,35 @@ pub(crate) fn measure(model: &Model, reference: &Path) -> Result<Distances, Stri
     let largest_mm = all.last().copied().unwrap_or(0.0);
     let usual_mm = all.get(all.len() * 99 / 100).copied().unwrap_or(largest_mm);
     Ok(Distances { reference: reference.to_path_buf(), convention, parts, largest_mm, usual_mm })
+}
+
+/// Halves triangles until no side is longer than `longest`: between corners that are far apart, distances are no straight lines.
+fn divide(
+    points: &mut Vec<DVec3>,
+    normals: &mut Vec<DVec3>,
+    triangles: &[[u32; 3]],
+    longest: f64,
+) -> Vec<[u32; 3]> {
+    let mut middles: HashMap<[u32; 2], u32> = HashMap::new();
+    let mut out = Vec::with_capacity(triangles.len());
+    let mut stack = triangles.to_vec();
+    while let Some(triangle) = stack.pop() {
+        let length =
+            |k: usize| points[triangle[k] as usize].distance_squared(points[triangle[(k + 1) % 3] as usize]);
+        let side = (0..3).max_by(|a, b| length(*a).total_cmp(&length(*b))).unwrap_or(0);
+        if !(length(side) > longest * longest) {
+            out.push(triangle);
+            continue;
+        }
+        let [a, b, c] = [0, 1, 2].map(|k| triangle[(side + k) % 3]);
+        let middle = *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+            points.push(0.5 * (points[a as usize] + points[b as usize]));
+            normals.push((normals[a as usize] + normals[b as usize]).normalize_or(normals[a as usize]));
+            points.len() as u32 - 1
+        });
+        stack.extend([[a, middle, c], [middle, b, c]]);
+    }
+    out
 }
 
 /// The reference's shape, and what its unit and axes were taken to be.
@@ -258,6 +292,21 @@ mod tests {
     fn area(bands: &[Band]) -> f64 {
         let one = |p: &[DVec3]| 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).length();
         bands.iter().flat_map(|band| band.points.chunks_exact(3)).map(one).sum()
+    }
+
+    #[test]
+    fn divided_triangles_have_short_sides_and_the_same_area() {
+        let mut points = vec![DVec3::ZERO, DVec3::X * 10.0, DVec3::Y];
+        let mut normals = vec![DVec3::Z; 3];
+        let triangles = divide(&mut points, &mut normals, &[[0, 1, 2]], 0.7);
+        let mut area = 0.0;
+        for t in &triangles {
+            let [a, b, c] = t.map(|k| points[k as usize]);
+            area += 0.5 * (b - a).cross(c - a).z;
+            assert!(a.distance(b) <= 0.7 && b.distance(c) <= 0.7 && c.distance(a) <= 0.7);
+        }
+        assert!((area - 5.0).abs() < 1e-12);
+        assert_eq!(points.len(), normals.len());
     }
 
     #[test]

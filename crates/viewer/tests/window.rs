@@ -56,7 +56,7 @@ fn press(harness: &mut Harness<'_, App>, key: egui::Key) {
 /// The pixels of the model's view.
 fn pixels(harness: &mut Harness<'_, App>) -> Vec<[u8; 4]> {
     let picture = harness.render().expect("a picture");
-    let inside = picture.enumerate_pixels().filter(|(x, y, _)| *x > 320 && *y > 40);
+    let inside = picture.enumerate_pixels().filter(|(x, y, _)| *x > 335 && *y > 40);
     inside.map(|(_, _, p)| p.0).collect()
 }
 
@@ -101,7 +101,7 @@ fn a_click_tells_what_a_face_is() {
     assert!(radius.ends_with(" mm"), "{radius}");
     harness.get_by_label("Copy as text");
     // Nothing is there in the corner.
-    click(&mut harness, egui::Pos2::new(320.0, 680.0));
+    click(&mut harness, egui::Pos2::new(345.0, 680.0));
     assert!(harness.state().facts().is_empty());
 }
 
@@ -110,7 +110,7 @@ fn pictures_change_when_the_model_is_turned_and_cut() {
     let Some(mut harness) = window(vec![fixture("cadquery/bracket.step")]) else { return };
     let first = harness.render().expect("a picture");
     let model = |picture: &image::RgbaImage| {
-        let inside = picture.enumerate_pixels().filter(|(x, y, _)| *x > 320 && *y > 40);
+        let inside = picture.enumerate_pixels().filter(|(x, y, _)| *x > 335 && *y > 40);
         inside.map(|(_, _, p)| p.0).collect::<Vec<_>>()
     };
     let colors: std::collections::BTreeSet<[u8; 4]> = model(&first).into_iter().collect();
