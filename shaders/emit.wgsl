@@ -28,8 +28,8 @@ struct Draw {
 struct Tile {
     // Planes around the tile in the eye's coordinates, normals inwards.
     planes: array<vec4<f32>, 5>,
-    // What is in front of this one is cut away, except where an item is a cap.
-    section: vec4<f32>,
+    // What is in front of any of these is cut away, except what closes the cut.
+    sections: array<vec4<f32>, 3>,
     count: u32,
     unused_0: u32,
     unused_1: u32,
@@ -61,7 +61,12 @@ fn is_seen(draw: Draw) -> bool {
             return false;
         }
     }
-    return dot(tile.section, vec4<f32>(draw.center, 1.0)) <= draw.radius;
+    for (var k = 0u; k < 3u; k++) {
+        if dot(tile.sections[k], vec4<f32>(draw.center, 1.0)) > draw.radius {
+            return false;
+        }
+    }
+    return true;
 }
 
 // Indices per cell.

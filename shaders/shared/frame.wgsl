@@ -12,8 +12,8 @@ struct View {
     up: vec3<f32>,
     // Half the width of borders, pixels.
     border: f32,
-    // What is in front of this plane is cut away; all zero for none.
-    section: vec4<f32>,
+    // What is in front of any of these planes is cut away; all zero for none.
+    sections: array<vec4<f32>, 3>,
     // Colour of edges, linear; half their width, pixels.
     edge: vec4<f32>,
     // The radius of curvature that is red; 0 for the items' own colours.
@@ -35,7 +35,7 @@ struct Item {
     trim: u32,
     // What picking returns, from 1 on.
     id: u32,
-    // Bit 0: the section plane cuts nothing away, since it closes what that cuts open. Bit 1: it stands out.
+    // Bits 0 to 2: the section planes that cut nothing of it away, since it closes what they cut open. Bit 3: it stands out.
     flags: u32,
     // Texels of its mask along u, and along v in the upper half.
     mask: u32,
@@ -61,7 +61,13 @@ fn shifted(p: vec3<f32>, pixels: f32) -> vec3<f32> {
 }
 
 fn is_cut_away(item: u32, p: vec3<f32>) -> bool {
-    return (items[item].flags & 1u) == 0u && dot(view.section, vec4<f32>(p, 1.0)) > 0.0;
+    let flags = items[item].flags;
+    for (var k = 0u; k < 3u; k++) {
+        if ((flags >> k) & 1u) == 0u && dot(view.sections[k], vec4<f32>(p, 1.0)) > 0.0 {
+            return true;
+        }
+    }
+    return false;
 }
 
 // From the eye to the place, unit length.

@@ -379,7 +379,8 @@ pub struct RenderArguments {
     #[arg(long, value_name = "NAME", help_heading = "View")]
     pub only: Vec<String>,
 
-    /// Cut away what lies beyond a plane: x=10mm, or -x=10mm for the other side; what is cut is capped
+    /// Cut away what lies beyond a plane: x=10mm, or -x=10mm for the other side; what is cut is capped; may be given up to
+    /// three times
     #[arg(
         long,
         value_name = "PLANE",
@@ -387,7 +388,7 @@ pub struct RenderArguments {
         help_heading = "View",
         value_parser = quantity::section
     )]
-    pub section: Option<Section>,
+    pub section: Vec<Section>,
 
     /// As many pictures from all around: OUT_001.png, OUT_002.png, ...
     #[arg(long, value_name = "N", help_heading = "View", value_parser = clap::value_parser!(u32).range(1..=3600))]

@@ -9,8 +9,8 @@ use trimloop_brep::{Model, Severity};
 use trimloop_gpu::Gpu;
 use trimloop_import::ImportOptions;
 use trimloop_render::{
-    Background, Camera, Direction, EdgeStyle, Look, Names, Painter, Picture, Place, Projection, Renderer,
-    Scene, contact_sheet,
+    Background, Camera, Direction, EdgeStyle, Look, MOST_SECTIONS, Names, Painter, Picture, Place,
+    Projection, Renderer, Scene, contact_sheet,
 };
 
 use crate::arguments::{Edges, RenderArguments, Up};
@@ -121,9 +121,12 @@ impl Studio<'_> {
         drop(progress);
         self.choose(&model, &mut scene)?;
         let mut look = self.look();
-        if let Some(section) = &arguments.section {
+        if arguments.section.len() > MOST_SECTIONS {
+            bail!("--section may be given {MOST_SECTIONS} times at most");
+        }
+        if !arguments.section.is_empty() {
             let progress = Progress::new(scene.face_count(), arguments.quiet);
-            look.section = Some(scene.cap(&model, section, &progress)?);
+            look.sections = scene.cap(&model, &arguments.section, &progress)?;
         }
         let outcome = tell(input, &model, &scene, arguments);
         let subject = self.subject(&model, &scene)?;

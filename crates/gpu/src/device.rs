@@ -412,7 +412,8 @@ fn with_literal(source: &str, name: &str, value: u32) -> String {
 /// A discrete GPU before an integrated one, any of them before a program on the CPU.
 async fn pick(instance: &wgpu::Instance) -> Result<wgpu::Adapter, GpuError> {
     let wanted = std::env::var("WGPU_ADAPTER_NAME").ok().map(|name| name.to_lowercase());
-    let backends = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::all());
+    // OpenGL lacks what the shaders need.
+    let backends = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::all()) & wgpu::Backends::PRIMARY;
     let rank = |adapter: &wgpu::Adapter| match adapter.get_info().device_type {
         wgpu::DeviceType::DiscreteGpu => 0,
         wgpu::DeviceType::IntegratedGpu => 1,

@@ -10,7 +10,7 @@ use trimloop_trim::TrimDomain;
 use trimloop_trim::curves::Cubic;
 
 use crate::border::EdgeCurve;
-use crate::look::Section;
+use crate::look::{MOST_SECTIONS, Section};
 use crate::scene::{FaceKind, Instance, Scene, SceneFace, ScenePart};
 use crate::surface_face::SurfaceFace;
 
@@ -78,32 +78,49 @@ impl Section {
 }
 
 impl Scene {
-    /// Closes the solids that `section` cuts open: adds a part with one plane face for each, and its instance. What comes
-    /// back is the plane that is to cut, moved by next to nothing, so that faces in it are cut away too.
+    /// Closes the solids that `sections` cut open: adds for each a part with one plane face for each of them, and its
+    /// instance. What comes back are the planes that are to cut, moved by next to nothing, so that faces in them are cut away
+    /// too.
     ///
     /// # Errors
     /// Where `monitor` stops it.
     pub fn cap(
         &mut self,
         model: &Model,
-        section: &Section,
+        sections: &[Section],
         monitor: &dyn Monitor,
-    ) -> Result<Section, Cancelled> {
-        let section = section.aside(self.bounds().diagonal());
-        let shown: Vec<&Instance> = self.instances.iter().filter(|i| i.is_shown).collect();
-        let cutter = Cutter::new(model, |part| shown.iter().any(|i| i.part == part), monitor)?;
-        if let Some(part) = cutter.caps(model, &shown, &section) {
-            self.instances.push(Instance::of_caps(self.parts.len()));
-            self.parts.push(part);
+    ) -> Result<[Option<Section>; MOST_SECTIONS], Cancelled> {
+        let mut out = [None; MOST_SECTIONS];
+        if sections.is_empty() {
+            return Ok(out);
         }
-        Ok(section)
+        let size = self.bounds().diagonal();
+        let shown: Vec<Instance> = self.instances.iter().filter(|i| i.is_shown).cloned().collect();
+        let shown: Vec<&Instance> = shown.iter().collect();
+        let cutter = Cutter::new(model, |part| shown.iter().any(|i| i.part == part), monitor)?;
+        for (k, (to, section)) in out.iter_mut().zip(sections).enumerate() {
+            let section = section.aside(size);
+            if let Some(part) = cutter.caps(model, &shown, &section) {
+                self.instances.push(Instance::of_caps(self.parts.len(), k));
+                self.parts.push(part);
+            }
+            *to = Some(section);
+        }
+        Ok(out)
     }
 }
 
 impl Instance {
     /// The one of the part that closes what a section plane cuts open.
-    pub(crate) fn of_caps(part: usize) -> Self {
-        Self { part, node: None, transform: DAffine3::IDENTITY, color: None, is_shown: true }
+    pub(crate) fn of_caps(part: usize, section: usize) -> Self {
+        Self {
+            part,
+            node: None,
+            transform: DAffine3::IDENTITY,
+            color: None,
+            is_shown: true,
+            closes: Some(section),
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use trimloop_brep::{Model, Rgba};
 use trimloop_mesh::{Cancelled, LinearDeflection, MeshOptions, Monitor, PartMesh};
 
 use crate::camera::Camera;
-use crate::look::{Background, EdgeStyle, Look, encode, linear};
+use crate::look::{Background, EdgeStyle, Look, MOST_SECTIONS, encode, linear};
 use crate::picture::{Pick, Picture, Seen};
 use crate::renderer::check;
 use crate::scene::Scene;
@@ -23,7 +23,6 @@ pub struct CpuRenderer {
 const DEFLECTION: f64 = 3e-4;
 /// Rows that one task draws.
 const BAND: usize = 32;
-const EDGE_PX: f64 = 0.7;
 const EDGE_SHIFT_PX: f64 = 2.0;
 
 /// A corner on the screen: pixels, and what is linear there; 1 / depth (in a parallel view the depth itself, negated).
@@ -41,6 +40,8 @@ struct Drawn {
     corners: [Corner; 3],
     color: [f32; 4],
     pick: (u32, u32),
+    /// The plane that does not cut it.
+    closes: Option<usize>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -48,6 +49,8 @@ struct Line {
     ends: [Corner; 2],
     color: [f32; 4],
     is_edge: bool,
+    /// The plane that does not cut it.
+    closes: Option<usize>,
 }
 
 /// What a sample shows.
@@ -214,7 +217,7 @@ struct Prepared {
     lines: Vec<Line>,
     half_width: f64,
     is_parallel: bool,
-    section: Option<(DVec3, f64)>,
+    sections: [Option<(DVec3, f64)>; MOST_SECTIONS],
     up: DVec3,
 }
 
@@ -224,11 +227,11 @@ impl Prepared {
             solid: Vec::new(),
             clear: Vec::new(),
             lines: Vec::new(),
-            half_width: EDGE_PX * fine,
+            half_width: 0.5 * f64::from(look.edge_width_px) * fine,
             is_parallel: camera.is_parallel(),
-            section: look
-                .section
-                .map(|s| (camera.rotation() * s.normal, s.normal.dot(camera.eye) - s.offset_mm)),
+            sections: look.sections.map(|section| {
+                section.map(|s| (camera.rotation() * s.normal, s.normal.dot(camera.eye) - s.offset_mm))
+            }),
             up: camera.rotation() * look.up.axis(),
         };
         let pixel = camera.pixel(size[1]) / fine;
@@ -261,7 +264,7 @@ impl Prepared {
                         project(eye, to_eye.matrix3 * v.normal, share(face, v.uv))
                     });
                     if is_parallel || corners.iter().all(|c| c.eye.z < 0.0) {
-                        list.push(Drawn { corners, color, pick: (index, number) });
+                        list.push(Drawn { corners, color, pick: (index, number), closes: instance.closes });
                     }
                 }
             }
@@ -273,7 +276,7 @@ impl Prepared {
                 };
                 let ends = [moved(a), moved(b)];
                 if is_parallel || ends.iter().all(|c| c.eye.z < 0.0) {
-                    out.lines.push(Line { ends, color, is_edge });
+                    out.lines.push(Line { ends, color, is_edge, closes: instance.closes });
                 }
             };
             if look.edges != EdgeStyle::None {
@@ -291,6 +294,13 @@ impl Prepared {
             }
         }
         out
+    }
+
+    fn is_cut_away(&self, closes: Option<usize>, eye: DVec3) -> bool {
+        let is_beyond = |(k, plane): (usize, &Option<(DVec3, f64)>)| {
+            closes != Some(k) && plane.is_some_and(|(normal, offset)| normal.dot(eye) + offset > 0.0)
+        };
+        self.sections.iter().enumerate().any(is_beyond)
     }
 
     /// The samples of some rows, row by row.
@@ -352,7 +362,7 @@ impl Prepared {
                 let w = if self.is_parallel { [wa, wb, wc] } else { [wa * a.near, wb * b.near, wc * c.near] };
                 let w = w.map(|x| x / (w[0] + w[1] + w[2]));
                 let eye = a.eye * w[0] + b.eye * w[1] + c.eye * w[2];
-                if self.section.is_some_and(|(normal, offset)| normal.dot(eye) + offset > 0.0) {
+                if self.is_cut_away(drawn.closes, eye) {
                     continue;
                 }
                 let normal = a.normal * w[0] + b.normal * w[1] + c.normal * w[2];
@@ -392,7 +402,7 @@ impl Prepared {
                     _ => opacity,
                 };
                 let eye = a.eye.lerp(b.eye, share);
-                if opacity == 0.0 || self.section.is_some_and(|(n, offset)| n.dot(eye) + offset > 0.0) {
+                if opacity == 0.0 || self.is_cut_away(line.closes, eye) {
                     continue;
                 }
                 for c in 0..4 {

@@ -5,6 +5,7 @@ use trimloop_gpu::{Gpu, GpuError, shaders};
 
 use crate::clock::Clock;
 use crate::frame::{Item, Lists};
+use crate::look::MOST_SECTIONS;
 
 /// A piece at its place; as in `shaders/emit.wgsl`.
 #[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
@@ -66,7 +67,7 @@ impl Draw {
 pub(crate) struct Bounds {
     /// Planes around it in the eye's coordinates, normals inwards.
     pub planes: [[f32; 4]; 5],
-    pub section: [f32; 4],
+    pub sections: [[f32; 4]; MOST_SECTIONS],
     pub count: u32,
     pub unused: [u32; 3],
 }

@@ -9,7 +9,7 @@ use crate::emission::{Bounds, Draw, Strips};
 use crate::grid::{LONGEST, cells};
 use crate::hierarchy::{Chosen, Sight};
 use crate::lod::Lod;
-use crate::look::{EdgeStyle, Look, Paint, linear};
+use crate::look::{EdgeStyle, Look, MOST_SECTIONS, Paint, Section, linear};
 use crate::scene::{FaceKind, Instance, Scene, SceneFace};
 use crate::stage::{PieceKey, Stage};
 use crate::surface_face::SurfaceFace;
@@ -24,7 +24,7 @@ pub(crate) struct View {
     is_parallel: u32,
     up: Vec3,
     border: f32,
-    section: Vec4,
+    sections: [Vec4; MOST_SECTIONS],
     edge: Vec4,
     /// The radius of curvature that is red; 0 for the items' own colours.
     tightest: Vec4,
@@ -108,7 +108,6 @@ const BORDER_PX: f32 = 0.25;
 /// Likewise where trim textures end faces, which are off by half a texel.
 const MASK_BORDER_PX: f32 = 0.32;
 const BORDER_SHIFT_PX: f32 = 0.5;
-const EDGE_PX: f32 = 0.7;
 const EDGE_SHIFT_PX: f32 = 2.0;
 /// Of what a picture may be off, the share for the distance between triangles and surface.
 const GEOMETRY: f64 = 0.5;
@@ -197,7 +196,7 @@ impl Shot<'_> {
         });
         let color = self.color(placed_in, face);
         let color = if is_highlighted { highlighted(color) } else { color };
-        let flags = u32::from(placed_in.node.is_none()) | u32::from(is_highlighted) << 1;
+        let flags = placed_in.closes.map_or(0, |k| 1 << k) | u32::from(is_highlighted) << MOST_SECTIONS;
         let item = placed.item(own.origin, color, trimmed.trim, flags);
         let item = Item { mask: trimmed.mask, ..item };
         let is_clear = !is_solid && color[3] < 0.999;
@@ -226,7 +225,7 @@ impl Shot<'_> {
             ..Draw::default()
         };
         // What is cut away elsewhere is kept where it closes the cut.
-        let radius = if placed_in.node.is_none() { f32::MAX } else { draw.radius };
+        let radius = if placed_in.closes.is_some() { f32::MAX } else { draw.radius };
         Some((item, Draw { radius, ..draw }, Numbered { instance, face: key.face, tile: key.part_of_face() }))
     }
 
@@ -254,21 +253,22 @@ impl Shot<'_> {
         for (to, (normal, offset)) in planes.iter_mut().zip(Frustum::new(self, tile).planes()) {
             *to = normal.extend(offset).as_vec4().to_array();
         }
-        Bounds { planes, section: self.section().to_array(), count: 0, unused: [0; 3] }
+        Bounds { planes, sections: self.sections().map(|s| s.to_array()), count: 0, unused: [0; 3] }
     }
 
-    /// The section plane in the eye's coordinates; all zero for none.
-    fn section(&self) -> Vec4 {
-        self.look.section.map_or(Vec4::ZERO, |section| {
+    /// The section planes in the eye's coordinates; all zero for none.
+    fn sections(&self) -> [Vec4; MOST_SECTIONS] {
+        let plane = |section: Section| {
             let normal = self.camera.rotation() * section.normal;
             let offset = section.normal.dot(self.camera.eye) - section.offset_mm;
             normal.extend(offset).as_vec4()
-        })
+        };
+        self.look.sections.map(|section| section.map_or(Vec4::ZERO, plane))
     }
 
     fn color(&self, instance: &Instance, face: &SceneFace) -> [f32; 4] {
         let own = instance.color.or(face.color).unwrap_or(self.look.color);
-        if instance.node.is_none() {
+        if instance.closes.is_some() {
             return linear(own);
         }
         let color = match self.look.paint {
@@ -305,7 +305,6 @@ impl Shot<'_> {
                 [0.0, 0.0, near, 0.0],
             ]
         };
-        let section = self.section();
         let up = (camera.rotation() * self.look.up.axis()).as_vec3();
         View {
             clip: Mat4::from_cols_array_2d(&clip.map(|column| column.map(|x| x as f32))),
@@ -314,13 +313,13 @@ impl Shot<'_> {
             is_parallel: u32::from(camera.is_parallel()),
             up,
             border: if self.look.lod.has_masks() { MASK_BORDER_PX } else { BORDER_PX },
-            section,
+            sections: self.sections(),
             edge: Vec4::new(0.012, 0.014, 0.018, 1.0),
             tightest: match self.look.paint {
                 Paint::Curvature { tightest_mm } => Vec4::X * tightest_mm as f32,
                 _ => Vec4::ZERO,
             },
-            edge_width: EDGE_PX,
+            edge_width: 0.5 * self.look.edge_width_px,
             border_shift: BORDER_SHIFT_PX,
             edge_shift: EDGE_SHIFT_PX,
             near: near as f32,

@@ -48,7 +48,7 @@ pub use cap::Cutter;
 pub use cpu::CpuRenderer;
 pub use error::RenderError;
 pub use lod::Lod;
-pub use look::{Background, EdgeStyle, Look, Paint, Section};
+pub use look::{Background, EdgeStyle, Look, MOST_SECTIONS, Paint, Section};
 pub use names::Names;
 pub use painter::Painter;
 pub use picture::{Difference, Pick, Picture, Seen};

@@ -5,6 +5,9 @@ use trimloop_brep::Rgba;
 
 use crate::{Lod, Up};
 
+/// Planes that a picture can be cut by.
+pub const MOST_SECTIONS: usize = 3;
+
 /// What a picture looks like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
@@ -18,8 +21,8 @@ pub struct Look {
     pub screen_error_px: f64,
     /// The colour of faces without one.
     pub color: Rgba,
-    /// What is cut away.
-    pub section: Option<Section>,
+    /// What is cut away: all that lies beyond any of these planes.
+    pub sections: [Option<Section>; MOST_SECTIONS],
     /// Where the light comes from.
     pub up: Up,
     /// How levels of detail are chosen.
@@ -30,6 +33,8 @@ pub struct Look {
     pub opacity: f32,
     /// Whether faces are drawn; edges alone otherwise.
     pub has_faces: bool,
+    /// How wide edges are drawn, pixels.
+    pub edge_width_px: f32,
 }
 
 /// What faces are coloured by.
@@ -116,12 +121,13 @@ impl Default for Look {
             samples: 4,
             screen_error_px: 0.5,
             color: Rgba::opaque(0.73, 0.75, 0.78),
-            section: None,
+            sections: [None; MOST_SECTIONS],
             up: Up::Z,
             lod: Lod::Adaptive,
             paint: Paint::Own,
             opacity: 1.0,
             has_faces: true,
+            edge_width_px: 1.4,
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::clock::{Clock, TIMED};
 use crate::emission::{Emission, Emitter, Strips};
 use crate::error::MOST_PIXELS;
 use crate::frame::{Numbered, Shot, Tile, Visible};
-use crate::look::{Background, EdgeStyle, Look, encode, linear};
+use crate::look::{Background, EdgeStyle, Look, MOST_SECTIONS, encode, linear};
 use crate::passes::{Pass, Passes, Trim};
 use crate::picture::{Pick, Picture, Seen};
 use crate::scene::{FaceKind, Highlight, Instance, Scene, ScenePart};
@@ -30,8 +30,8 @@ pub struct Renderer {
     emitter: Emitter,
     targets: Option<Targets>,
     statistics: FrameStatistics,
-    /// The part and the instance that close what a section plane cuts open.
-    caps: Option<(usize, usize)>,
+    /// The parts that close what section planes cut open.
+    caps: [Option<usize>; MOST_SECTIONS],
     clock: Option<Clock>,
 }
 
@@ -103,7 +103,7 @@ impl Renderer {
             scene,
             targets: None,
             statistics: FrameStatistics::default(),
-            caps: None,
+            caps: [None; MOST_SECTIONS],
             clock: Clock::new(gpu),
         })
     }
@@ -142,17 +142,24 @@ impl Renderer {
         Ok(())
     }
 
-    /// What closes solids that a section plane cuts open (see [`crate::Cutter`]); `None` for nothing.
+    /// What closes solids that a section plane (an index of [`Look::sections`]) cuts open (see [`crate::Cutter`]); `None` for
+    /// nothing.
     ///
     /// # Errors
     /// What the device refuses.
-    pub fn set_caps(&mut self, caps: Option<ScenePart>) -> Result<(), RenderError> {
-        if self.caps.is_none() && caps.is_some() {
-            self.scene.parts.push(ScenePart::default());
-            self.scene.instances.push(Instance::of_caps(self.scene.parts.len() - 1));
-            self.caps = Some((self.scene.parts.len() - 1, self.scene.instances.len() - 1));
-        }
-        let Some((part, _)) = self.caps else { return Ok(()) };
+    pub fn set_caps(&mut self, section: usize, caps: Option<ScenePart>) -> Result<(), RenderError> {
+        let Some(own) = self.caps.get_mut(section) else { return Ok(()) };
+        let part = match (*own, &caps) {
+            (Some(part), _) => part,
+            (None, None) => return Ok(()),
+            (None, Some(_)) => {
+                self.scene.parts.push(ScenePart::default());
+                let part = self.scene.parts.len() - 1;
+                self.scene.instances.push(Instance::of_caps(part, section));
+                *own = Some(part);
+                part
+            }
+        };
         self.set_part(part, caps.unwrap_or_default())
     }
 

@@ -106,6 +106,8 @@ pub struct Instance {
     pub color: Option<Rgba>,
     /// Whether it is shown.
     pub is_shown: bool,
+    /// It closes what this plane cuts open, which does not cut it (an index of `Look::sections`).
+    pub closes: Option<usize>,
 }
 
 /// The share of a part's size that its boundaries are sampled to.
@@ -153,7 +155,14 @@ impl Scene {
             let color = color.or(node.color);
             let is_shown = is_shown && !node.hidden;
             if let Some(part) = node.part {
-                self.instances.push(Instance { part, node: Some(index), transform, color, is_shown });
+                self.instances.push(Instance {
+                    part,
+                    node: Some(index),
+                    transform,
+                    color,
+                    is_shown,
+                    closes: None,
+                });
             }
             stack.extend(node.children.iter().rev().map(|&child| (child, transform, color, is_shown)));
         }

@@ -21,7 +21,7 @@ use crate::measure::Subject;
 use crate::navigation::{Navigation, Style, TwoFingers};
 use crate::panels::{self, DisplayAction, Tab};
 use crate::resume::{Resume, State};
-use crate::section::{self, Cut};
+use crate::section::{self, Cuts};
 use crate::settings::{self, Settings};
 use crate::tree::{Tree, TreeAction};
 use crate::viewport::{Controls, Shown, Viewport};
@@ -47,7 +47,7 @@ pub struct App {
     future: Vec<Navigation>,
     look: Look,
     display: Display,
-    cut: Cut,
+    cuts: Cuts,
     tree: Tree,
     tab: Tab,
     settings: Settings,
@@ -157,7 +157,7 @@ impl App {
             future: Vec::new(),
             look: Look { up: options.up, lod, ..Look::default() },
             display: Display::default(),
-            cut: Cut::default(),
+            cuts: Cuts::new(),
             tree: Tree::default(),
             tab: Tab::default(),
             settings,
@@ -418,7 +418,7 @@ impl App {
         self.is_fitted = std::mem::take(&mut self.is_resumed);
         self.fitted = None;
         self.tree.reset();
-        self.cut = Cut { has_gizmo: self.cut.has_gizmo, ..Cut::default() };
+        self.cuts = Cuts::new();
     }
 
     fn close(&mut self, index: usize) {
@@ -480,7 +480,9 @@ impl App {
     fn look(&self, bounds: Aabb) -> Look {
         let mut look = self.look;
         self.display.apply(&mut look, bounds.diagonal());
-        look.section = self.cut.section(bounds).map(|section| section.aside(bounds.diagonal()));
+        let sections = self.cuts.sections(bounds);
+        look.sections = sections.map(|own| own.map(|section| section.aside(bounds.diagonal())));
+        look.edge_width_px *= self.context.pixels_per_point();
         look
     }
 
@@ -539,10 +541,10 @@ impl App {
         }
         let bounds = self.bounds();
         if hit(Modifiers::SHIFT, Key::X) && !bounds.is_empty() {
-            self.cut.flip(bounds);
+            self.cuts.active_mut().flip(bounds);
         }
         if plain(Key::X) {
-            self.cut.is_on ^= true;
+            self.cuts.active_mut().is_on ^= true;
             self.tab = Tab::Section;
         }
         if plain(Key::F1)
@@ -955,7 +957,7 @@ impl App {
                 tab => {
                     let area = egui::ScrollArea::vertical().id_salt("details").auto_shrink([false, false]);
                     area.show(ui, |ui| match tab {
-                        Tab::Section => panels::section(ui, &mut self.cut, bounds, document),
+                        Tab::Section => panels::section(ui, &mut self.cuts, bounds, document),
                         Tab::Display => {
                             asked = panels::display(ui, &mut self.display, bounds.diagonal(), document);
                         }
@@ -1099,7 +1101,7 @@ impl App {
         let rect = ui.available_rect_before_wrap();
         let Some(document) = self.documents.get_mut(self.active) else { return };
         let is_deviation = self.display.colors == display::Colors::Deviation && document.deviation.is_some();
-        if let Err(error) = section::update_caps(ui.ctx(), document, self.cut.section(bounds)) {
+        if let Err(error) = section::update_caps(ui.ctx(), document, self.cuts.sections(bounds)) {
             self.messages.push(error.to_string());
         }
         let controls = Controls {
@@ -1111,7 +1113,7 @@ impl App {
         let shown = Shown {
             document,
             view: &mut self.view,
-            cut: &mut self.cut,
+            cuts: &mut self.cuts,
             bounds,
             look: &look,
             is_deviation,

@@ -196,8 +196,14 @@ impl Deviation {
 
 impl Distances {
     fn scene(&self, most_mm: f64) -> Scene {
-        let instance =
-            Instance { part: 0, node: Some(0), transform: Default::default(), color: None, is_shown: true };
+        let instance = Instance {
+            part: 0,
+            node: Some(0),
+            transform: Default::default(),
+            color: None,
+            is_shown: true,
+            closes: None,
+        };
         Scene { parts: vec![self.part(most_mm)], instances: vec![instance], ..Scene::default() }
     }
 

@@ -9,7 +9,7 @@ use crate::display::{Colors, Display, Mode, short};
 use crate::document::{Document, Picked};
 use crate::measure::number;
 use crate::pick::Filter;
-use crate::section::Cut;
+use crate::section::Cuts;
 
 /// What is shown below the tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,8 +69,16 @@ pub(crate) fn selection(ui: &mut Ui, document: &mut Document, filter: &mut Filte
     }
 }
 
-/// The section plane and its place.
-pub(crate) fn section(ui: &mut Ui, cut: &mut Cut, bounds: Aabb, document: &Document) {
+/// The section planes and their places.
+pub(crate) fn section(ui: &mut Ui, cuts: &mut Cuts, bounds: Aabb, document: &Document) {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("plane").weak());
+        for k in 0..cuts.all.len() {
+            let text = if cuts.all[k].is_on { format!("{} on", k + 1) } else { format!("{}", k + 1) };
+            ui.selectable_value(&mut cuts.active, k, text);
+        }
+    });
+    let cut = cuts.active_mut();
     ui.horizontal(|ui| {
         ui.checkbox(&mut cut.is_on, "on (X)");
         for (axis, name) in [(DVec3::X, "x"), (DVec3::Y, "y"), (DVec3::Z, "z")] {

@@ -7,7 +7,7 @@ use egui::{Color32, Pos2, Response, Stroke, Ui};
 use glam::{DVec2, DVec3};
 use trimloop_geom::Aabb;
 use trimloop_mesh::Silent;
-use trimloop_render::{Cutter, Instance, RenderError, ScenePart, Section};
+use trimloop_render::{Cutter, Instance, MOST_SECTIONS, RenderError, ScenePart, Section};
 
 use crate::document::Document;
 use crate::job::{Job, Polled};
@@ -63,19 +63,57 @@ impl Cut {
     }
 }
 
+/// The section planes: up to three, which cut independently.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Cuts {
+    pub all: [Cut; MOST_SECTIONS],
+    /// The one that the panel and the handles move.
+    pub active: usize,
+}
+
+impl Cuts {
+    /// As they are when a file is opened: none is on, each across an axis of its own.
+    pub fn new() -> Self {
+        let mut own = Self::default();
+        for (cut, normal) in own.all.iter_mut().zip([DVec3::X, DVec3::Y, DVec3::Z]) {
+            cut.normal = normal;
+        }
+        own
+    }
+
+    pub fn active(&self) -> &Cut {
+        &self.all[self.active.min(MOST_SECTIONS - 1)]
+    }
+
+    pub fn active_mut(&mut self) -> &mut Cut {
+        &mut self.all[self.active.min(MOST_SECTIONS - 1)]
+    }
+
+    /// The planes that are on.
+    pub fn sections(&self, bounds: Aabb) -> [Option<Section>; MOST_SECTIONS] {
+        self.all.map(|cut| cut.section(bounds))
+    }
+}
+
 /// What closes the solids of a document that are cut open.
 #[derive(Debug, Default)]
 pub(crate) struct Caps {
     /// Meshes of the parts, once somebody needs them.
     cutter: Option<Arc<Cutter>>,
     making: Option<Job<Option<Cutter>>>,
+    planes: [PlaneCaps; MOST_SECTIONS],
+    /// Counts how often they changed.
+    pub changes: u64,
+}
+
+/// What closes the cut of one plane.
+#[derive(Debug, Default)]
+struct PlaneCaps {
     job: Option<(Key, Job<Option<ScenePart>>)>,
     /// What the caps that are shown belong to.
     shown: Option<Key>,
     /// Seconds that the last ones took.
     seconds: f64,
-    /// Counts how often they changed.
-    pub changes: u64,
 }
 
 /// What caps depend on.
@@ -89,49 +127,52 @@ struct Key {
 /// Caps that take less are made in the frame that needs them.
 const AT_ONCE_S: f64 = 0.02;
 
-/// Brings the caps of `document` up to date with the section.
+/// Brings the caps of `document` up to date with the sections.
 ///
 /// # Errors
 /// What the device refuses.
 pub(crate) fn update_caps(
     context: &egui::Context,
     document: &mut Document,
-    section: Option<Section>,
+    sections: [Option<Section>; MOST_SECTIONS],
 ) -> Result<(), RenderError> {
-    let is_change = find_caps(context, document, section)?;
-    document.caps.changes += u64::from(is_change);
+    for (k, section) in sections.into_iter().enumerate() {
+        let is_change = find_caps(context, document, k, section)?;
+        document.caps.changes += u64::from(is_change);
+    }
     Ok(())
 }
 
-/// The same; whether they are others now.
+/// The same for one plane; whether its caps are others now.
 fn find_caps(
     context: &egui::Context,
     document: &mut Document,
+    k: usize,
     section: Option<Section>,
 ) -> Result<bool, RenderError> {
     let wanted = section.map(|section| Key { section, arrangement: document.arrangement });
-    if document.caps.shown == wanted {
+    if document.caps.planes[k].shown == wanted {
         return Ok(false);
     }
     let Some(wanted) = wanted.filter(|_| document.seconds.is_some()) else {
-        let is_change = document.caps.shown.take().is_some();
-        document.caps.job = None;
-        document.renderer.set_caps(None)?;
+        let is_change = document.caps.planes[k].shown.take().is_some();
+        document.caps.planes[k].job = None;
+        document.renderer.set_caps(k, None)?;
         return Ok(is_change);
     };
     let Some(cutter) = cutter_of(context, document) else { return Ok(false) };
-    match document.caps.job.as_ref().map(|(key, job)| (*key, job.poll())) {
+    match document.caps.planes[k].job.as_ref().map(|(key, job)| (*key, job.poll())) {
         Some((key, Polled::Waiting)) if key == wanted => return Ok(false),
         Some((key, Polled::Done(caps))) if key == wanted => {
-            document.caps.job = None;
-            document.caps.shown = Some(wanted);
-            document.renderer.set_caps(caps)?;
+            document.caps.planes[k].job = None;
+            document.caps.planes[k].shown = Some(wanted);
+            document.renderer.set_caps(k, caps)?;
             return Ok(true);
         }
         // The same would fail again.
         Some((key, Polled::Failed)) if key == wanted => {
-            document.caps.job = None;
-            document.caps.shown = Some(wanted);
+            document.caps.planes[k].job = None;
+            document.caps.planes[k].shown = Some(wanted);
             return Ok(false);
         }
         _ => {}
@@ -150,19 +191,19 @@ fn find_caps(
         let instances: Vec<&Instance> = instances.iter().collect();
         cutter.caps(&model, &instances, &plane)
     };
-    if document.caps.seconds < AT_ONCE_S {
+    if document.caps.planes[k].seconds < AT_ONCE_S {
         let start = Instant::now();
         let caps = cut();
-        document.caps.seconds = start.elapsed().as_secs_f64();
-        document.caps.job = None;
-        document.caps.shown = Some(wanted);
-        document.renderer.set_caps(caps)?;
+        document.caps.planes[k].seconds = start.elapsed().as_secs_f64();
+        document.caps.planes[k].job = None;
+        document.caps.planes[k].shown = Some(wanted);
+        document.renderer.set_caps(k, caps)?;
         return Ok(true);
     }
-    document.caps.job = Some((wanted, Job::start(context, cut)));
+    document.caps.planes[k].job = Some((wanted, Job::start(context, cut)));
     // Those of another plane would be wrong.
-    let is_change = document.caps.shown.take().is_some();
-    document.renderer.set_caps(None)?;
+    let is_change = document.caps.planes[k].shown.take().is_some();
+    document.renderer.set_caps(k, None)?;
     Ok(is_change)
 }
 
@@ -188,7 +229,8 @@ fn cutter_of(context: &egui::Context, document: &mut Document) -> Option<Arc<Cut
 
 impl Caps {
     pub fn is_busy(&self) -> bool {
-        self.job.is_some() || (self.making.is_some() && self.cutter.is_none())
+        self.planes.iter().any(|plane| plane.job.is_some())
+            || (self.making.is_some() && self.cutter.is_none())
     }
 }
 
@@ -277,16 +319,22 @@ pub(crate) fn drag(cut: &mut Cut, bounds: Aabb, frame: &Frame, handle: Handle, r
     }
 }
 
-/// Draws the plane's outline and its handles over the picture.
-pub(crate) fn show_gizmo(ui: &Ui, cut: &Cut, bounds: Aabb, frame: &Frame, hovered: Option<Handle>) {
-    let Some(own) = drawn(cut, bounds, frame) else { return };
+/// Draws the planes' outlines, and the handles of the one that is active, over the picture.
+pub(crate) fn show_gizmo(ui: &Ui, cuts: &Cuts, bounds: Aabb, frame: &Frame, hovered: Option<Handle>) {
     let painter = ui.painter().with_clip_rect(frame.rect);
     let color = Color32::from_rgb(200, 70, 40);
     let bright = Color32::from_rgb(255, 120, 60);
-    let corners: Vec<Pos2> = outline(cut, bounds).into_iter().filter_map(|p| frame.at(p)).collect();
-    if corners.len() > 2 {
-        painter.add(egui::Shape::closed_line(corners, Stroke::new(1.0, color.gamma_multiply(0.6))));
+    for cut in cuts.all.iter().filter(|cut| cut.is_on && cut.has_gizmo) {
+        let corners: Vec<Pos2> = outline(cut, bounds).into_iter().filter_map(|p| frame.at(p)).collect();
+        if corners.len() > 2 {
+            painter.add(egui::Shape::closed_line(corners, Stroke::new(1.0, color.gamma_multiply(0.6))));
+        }
     }
+    let cut = cuts.active();
+    if !cut.is_on || !cut.has_gizmo {
+        return;
+    }
+    let Some(own) = drawn(cut, bounds, frame) else { return };
     let width = if hovered == Some(Handle::Shaft) { 4.0 } else { 2.5 };
     let paint = |is_hovered: bool| if is_hovered { bright } else { color };
     painter.line_segment([own.base, own.tip], Stroke::new(width, paint(hovered == Some(Handle::Shaft))));

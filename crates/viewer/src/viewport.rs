@@ -13,7 +13,7 @@ use crate::document::{Document, Picked};
 use crate::measure::Measured;
 use crate::navigation::{Drag, Held, Navigation, Style, TwoFingers};
 use crate::pick::{self, Filter, Frame};
-use crate::section::{self, Cut, Handle};
+use crate::section::{self, Cut, Cuts, Handle};
 use crate::view_cube::{self, Turned};
 
 /// The picture of the model, and what it was drawn for.
@@ -65,7 +65,7 @@ struct Drawn {
 pub(crate) struct Shown<'a> {
     pub document: &'a mut Document,
     pub view: &'a mut Navigation,
-    pub cut: &'a mut Cut,
+    pub cuts: &'a mut Cuts,
     pub bounds: Aabb,
     pub look: &'a Look,
     /// Coloured by the distance from the reference.
@@ -111,13 +111,14 @@ impl Viewport {
     /// Draws the model into what is left of `ui`, and follows the mouse.
     pub fn show(&mut self, ui: &mut Ui, state: &RenderState, shown: Shown<'_>) -> Outcome {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
-        let Shown { document, view, cut, bounds, look, is_deviation, controls } = shown;
+        let Shown { document, view, cuts, bounds, look, is_deviation, controls } = shown;
         let mut outcome = Outcome::default();
         let scale = ui.ctx().pixels_per_point();
         let size = [rect.width(), rect.height()].map(|n| (n * scale).round().clamp(1.0, 8192.0) as u32);
         let before = Frame { camera: view.camera(), size, rect };
-        let hovered_handle = response.hover_pos().and_then(|at| section::handle_at(cut, bounds, &before, at));
-        if !self.hold_gizmo(ui, &response, cut, bounds, &before, hovered_handle) {
+        let hovered_handle =
+            response.hover_pos().and_then(|at| section::handle_at(cuts.active(), bounds, &before, at));
+        if !self.hold_gizmo(ui, &response, cuts.active_mut(), bounds, &before, hovered_handle) {
             self.navigate(ui, &response, view, controls, &mut outcome);
         }
         let frame = Frame { camera: view.camera(), size, rect };
@@ -157,8 +158,8 @@ impl Viewport {
             Err(error) => outcome.error = Some(error),
         }
         self.overlay(ui, document, &frame);
-        if cut.is_on && cut.has_gizmo && !bounds.is_empty() {
-            section::show_gizmo(ui, cut, bounds, &frame, self.handle.or(hovered_handle));
+        if !bounds.is_empty() {
+            section::show_gizmo(ui, cuts, bounds, &frame, self.handle.or(hovered_handle));
         }
         if controls.has_cube {
             match view_cube::show(ui, rect, view.direction, view.up) {

@@ -123,6 +123,15 @@ fn pictures_change_when_the_model_is_turned_and_cut() {
     harness.run_steps(3);
     let cut = harness.render().expect("a picture");
     assert!(model(&front) != model(&cut));
+    // A second plane, across another axis, cuts off more.
+    harness.get_by_label("2").click();
+    harness.run_steps(2);
+    press(&mut harness, egui::Key::X);
+    let both = harness.render().expect("a picture");
+    assert!(model(&cut) != model(&both));
+    press(&mut harness, egui::Key::X);
+    harness.get_by_label("1 on").click();
+    harness.run_steps(2);
     harness.key_press(egui::Key::X);
     harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
     harness.run_steps(3);

@@ -59,11 +59,11 @@ fn sections_hidden_edges_and_clear_backgrounds() {
     let model = model(name);
     let mut scene = scene(&model);
     let plane = trimloop_render::Section { normal: glam::DVec3::X, offset_mm: scene.bounds().center().x };
-    let section = scene.cap(&model, &plane, &trimloop_mesh::Silent).expect("capped");
+    let sections = scene.cap(&model, &[plane], &trimloop_mesh::Silent).expect("capped");
     let camera = camera(&scene, Direction { azimuth_deg: 60.0, elevation_deg: 20.0 }, SIZE);
     let mut renderer = trimloop_render::Renderer::new(gpu, scene).expect("a renderer");
     let look = Look {
-        section: Some(section),
+        sections,
         edges: EdgeStyle::Hidden,
         background: Background::Plain(trimloop_brep::Rgba { r: 1.0, g: 1.0, b: 1.0, a: 0.0 }),
         ..Look::default()
