@@ -9,7 +9,8 @@ use crate::camera::Camera;
 use crate::look::{Background, EdgeStyle, Look, MOST_SECTIONS, encode, linear};
 use crate::picture::{Pick, Picture, Seen};
 use crate::renderer::check;
-use crate::scene::Scene;
+use crate::scene::{FaceKind, Scene};
+use crate::surface_face::SurfaceFace;
 use crate::{Place, RenderError};
 
 /// Draws the triangles of a scene on the CPU.
@@ -36,12 +37,14 @@ struct Corner {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Drawn {
+struct Drawn<'a> {
     corners: [Corner; 3],
     color: [f32; 4],
     pick: (u32, u32),
     /// The plane that does not cut it.
     closes: Option<usize>,
+    /// The face that is to be trimmed; triangles of a mesh need not be.
+    trimmed: Option<&'a SurfaceFace>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -211,9 +214,9 @@ impl Sample {
 }
 
 /// Everything on the screen, by the bands of rows that it reaches into.
-struct Prepared {
-    solid: Vec<Drawn>,
-    clear: Vec<Drawn>,
+struct Prepared<'a> {
+    solid: Vec<Drawn<'a>>,
+    clear: Vec<Drawn<'a>>,
     lines: Vec<Line>,
     half_width: f64,
     is_parallel: bool,
@@ -221,8 +224,8 @@ struct Prepared {
     up: DVec3,
 }
 
-impl Prepared {
-    fn new(of: &CpuRenderer, camera: &Camera, size: [u32; 2], look: &Look, fine: f64) -> Self {
+impl<'a> Prepared<'a> {
+    fn new(of: &'a CpuRenderer, camera: &Camera, size: [u32; 2], look: &Look, fine: f64) -> Self {
         let mut out = Self {
             solid: Vec::new(),
             clear: Vec::new(),
@@ -249,9 +252,28 @@ impl Prepared {
                 matrix3: rotation * instance.transform.matrix3,
                 translation: rotation * (instance.transform.translation - camera.eye),
             };
-            let Some(mesh) = of.meshes.get(instance.part) else { continue };
             let part = &of.scene.parts[instance.part];
-            for ((number, own), face) in (0u32..).zip(&mesh.faces).zip(&part.faces) {
+            // What closes a cut has no mesh: its plane is trimmed sample by sample.
+            for (number, face) in (0u32..).zip(&part.faces).filter(|_| instance.closes.is_some()) {
+                let FaceKind::Surface(surface) = &face.kind else { continue };
+                let corner = |u: f64, v: f64| {
+                    let uv = DVec2::new(u, v);
+                    let own = surface.shape.derivatives(surface.parameters(uv)).point;
+                    project(to_eye.transform_point3(own), surface.shape.normal(surface.parameters(uv)), uv)
+                };
+                let [a, b, c, d] = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
+                let color = linear(instance.color.or(face.color).unwrap_or(look.color));
+                for corners in [[a, b, c], [a, c, d]] {
+                    if is_parallel || corners.iter().all(|c| c.eye.z < 0.0) {
+                        let (pick, closes) = ((index, number), instance.closes);
+                        out.solid.push(Drawn { corners, color, pick, closes, trimmed: Some(surface) });
+                    }
+                }
+            }
+            let mesh = of.meshes.get(instance.part);
+            let deflection_mm = mesh.map_or(part.bounds.diagonal() * DEFLECTION, |m| m.linear_deflection_mm);
+            let faces = mesh.into_iter().flat_map(|mesh| mesh.faces.iter().map(move |own| (mesh, own)));
+            for ((number, (mesh, own)), face) in (0u32..).zip(faces).zip(&part.faces) {
                 if face.is_hidden {
                     continue;
                 }
@@ -264,7 +286,13 @@ impl Prepared {
                         project(eye, to_eye.matrix3 * v.normal, share(face, v.uv))
                     });
                     if is_parallel || corners.iter().all(|c| c.eye.z < 0.0) {
-                        list.push(Drawn { corners, color, pick: (index, number), closes: instance.closes });
+                        list.push(Drawn {
+                            corners,
+                            color,
+                            pick: (index, number),
+                            closes: instance.closes,
+                            trimmed: None,
+                        });
                     }
                 }
             }
@@ -282,7 +310,7 @@ impl Prepared {
             if look.edges != EdgeStyle::None {
                 let edges = part.faces.iter().filter(|face| !face.is_hidden).flat_map(|face| &face.edges);
                 for edge in edges {
-                    let points = edge.sample(mesh.linear_deflection_mm);
+                    let points = edge.sample(deflection_mm);
                     points
                         .windows(2)
                         .for_each(|pair| add(pair[0], pair[1], [0.012, 0.014, 0.018, 1.0], true));
@@ -362,14 +390,15 @@ impl Prepared {
                 let w = if self.is_parallel { [wa, wb, wc] } else { [wa * a.near, wb * b.near, wc * c.near] };
                 let w = w.map(|x| x / (w[0] + w[1] + w[2]));
                 let eye = a.eye * w[0] + b.eye * w[1] + c.eye * w[2];
-                if self.is_cut_away(drawn.closes, eye) {
+                let uv = a.uv * w[0] + b.uv * w[1] + c.uv * w[2];
+                let is_outside = |face: &SurfaceFace| !face.table.contains(face.parameters(uv));
+                if self.is_cut_away(drawn.closes, eye) || drawn.trimmed.is_some_and(is_outside) {
                     continue;
                 }
                 let normal = a.normal * w[0] + b.normal * w[1] + c.normal * w[2];
                 let sight = if self.is_parallel { -DVec3::Z } else { eye.normalize() };
                 let [r, g, b_, _] = drawn.color;
                 let [r, g, b_] = shade([r, g, b_], normal, sight, self.up);
-                let uv = a.uv * w[0] + b.uv * w[1] + c.uv * w[2];
                 put(sample, near, [r, g, b_, 1.0], (drawn.pick.0, drawn.pick.1, uv));
             }
         }

@@ -1,8 +1,9 @@
 //! What cannot be drawn is told, and the rest is drawn.
 
+use glam::DVec3;
 use trimloop_brep::{EntityRef, Face, FaceGeometry};
 use trimloop_mesh::Silent;
-use trimloop_render::{Camera, CpuRenderer, Direction, Look, Projection, RenderError, Renderer, Up};
+use trimloop_render::{Camera, CpuRenderer, Direction, Look, Projection, RenderError, Renderer, Section, Up};
 
 use crate::{GPU, camera, model, renderer, scene};
 
@@ -148,4 +149,30 @@ fn the_processor_draws_what_the_device_draws() {
     let off: u64 = a.rgba.iter().zip(&b.rgba).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
     let mean = off as f64 / a.rgba.len() as f64;
     assert!(mean < 1.5, "{mean}");
+}
+
+#[test]
+fn the_processor_closes_what_two_planes_cut_open() {
+    let Some(gpu) = GPU.as_ref() else { return };
+    let model = model("cadquery/hollow_ball.step");
+    let cut = || {
+        let mut scene = scene(&model);
+        let middle = scene.bounds().center();
+        let plane = |normal: DVec3| Section { normal, offset_mm: normal.dot(middle) };
+        let planes = [plane(DVec3::X), plane(-DVec3::Z)];
+        let sections = scene.cap(&model, &planes, &Silent).expect("capped");
+        (scene, Look { sections, ..Look::default() })
+    };
+    let (own, look) = cut();
+    let size = [320, 240];
+    let camera = camera(&own, Direction::ISO, size);
+    let a = Renderer::new(gpu, own).expect("a renderer").picture(&camera, size, &look).expect("a picture");
+    let cpu = CpuRenderer::new(&model, cut().0, &Silent).expect("meshed");
+    let b = cpu.picture(&camera, size, &look).expect("a picture");
+    let off: u64 = a.rgba.iter().zip(&b.rgba).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+    assert!(off as f64 / (a.rgba.len() as f64) < 1.5, "{off}");
+    // Both show the inside, in the colour of cuts.
+    let is_cut = |p: &[u8]| i32::from(p[0]) - i32::from(p[2]) > 30;
+    let [first, second] = [&a, &b].map(|p| p.rgba.chunks_exact(4).filter(|p| is_cut(p)).count());
+    assert!(first > 1000 && first.abs_diff(second) < first / 20, "{first} {second}");
 }
