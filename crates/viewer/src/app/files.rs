@@ -1,0 +1,162 @@
+//! What goes to files and comes from them: pictures, exports, references.
+
+use std::path::{Path, PathBuf};
+
+use trimloop_render::{Look, Picture};
+
+use crate::deviation::{self, Deviation};
+use crate::display;
+use crate::export::Exporting;
+use crate::job::{Job, Polled};
+
+use super::App;
+
+/// Files that can be opened, by the ends of their names.
+const CAD: [&str; 7] = ["step", "stp", "stpz", "igs", "iges", "tspline", "gz"];
+
+const MESHES: [&str; 7] = ["stl", "obj", "ply", "gltf", "glb", "3mf", "step"];
+
+impl App {
+    pub(super) fn choose_files(&mut self) {
+        let dialog =
+            rfd::FileDialog::new().set_title("Open").add_filter("CAD", &CAD).add_filter("Everything", &["*"]);
+        for file in dialog.pick_files().unwrap_or_default() {
+            self.open(file);
+        }
+    }
+
+    pub(super) fn choose_reference(&mut self) {
+        let dialog = rfd::FileDialog::new()
+            .set_title("Compare with")
+            .add_filter("Meshes and CAD", &MESHES)
+            .add_filter("Everything", &["*"]);
+        if let Some(path) = dialog.pick_file() {
+            self.compare_with(path);
+        }
+    }
+
+    /// Begins to measure how far the file that is shown is from a reference.
+    pub fn compare_with(&mut self, reference: PathBuf) {
+        self.compare_with_of(self.active, reference);
+    }
+
+    pub(super) fn compare_with_of(&mut self, index: usize, reference: PathBuf) {
+        let Some(document) = self.documents.get(index) else { return };
+        let model = document.model.clone();
+        let work = move || {
+            deviation::measure(&model, &reference)
+                .map_err(|reason| format!("cannot compare with {}: {reason}", reference.display()))
+        };
+        self.comparing = Some((document.id, Job::start(&self.context, work)));
+    }
+
+    pub(super) fn receive_comparison(&mut self) {
+        let Some((id, job)) = &self.comparing else { return };
+        let (id, polled) = (*id, job.poll());
+        let found = match polled {
+            Polled::Waiting => return,
+            Polled::Done(Ok(found)) => Ok(found),
+            Polled::Done(Err(reason)) => Err(reason),
+            Polled::Failed => Err("the comparison failed; please report it".to_owned()),
+        };
+        self.comparing = None;
+        let made =
+            found.and_then(|found| Deviation::new(&self.gpu, found).map_err(|error| error.to_string()));
+        match made {
+            Ok(deviation) => {
+                if let Some(document) = self.documents.iter_mut().find(|own| own.id == id) {
+                    document.deviation = Some(deviation);
+                    document.revision += 1;
+                    self.display.colors = display::Colors::Deviation;
+                }
+            }
+            Err(reason) => self.messages.push(reason),
+        }
+    }
+
+    pub(super) fn choose_export(&mut self) {
+        let Some(document) = self.documents.get(self.active) else { return };
+        let name = document.path.with_extension("glb");
+        let dialog = rfd::FileDialog::new()
+            .set_title("Export")
+            .add_filter("glTF", &["glb"])
+            .set_file_name(name.file_name().unwrap_or_default().to_string_lossy());
+        if let Some(path) = dialog.save_file() {
+            self.export_to(path);
+        }
+    }
+
+    /// Begins to write what is shown to a glTF file.
+    pub fn export_to(&mut self, path: PathBuf) {
+        let Some(document) = self.documents.get(self.active) else { return };
+        let options = self.settings.export.clone();
+        let is_shown: Vec<bool> = (0..document.model.nodes.len())
+            .map(|node| !options.is_shown_only || document.is_shown(node))
+            .collect();
+        let exporting = Exporting::start(&self.context, &document.model, is_shown, options, path);
+        self.exporting = Some(exporting);
+        self.is_export_open = false;
+    }
+
+    pub(super) fn receive_export(&mut self) {
+        let Some(exporting) = &self.exporting else { return };
+        match exporting.job.poll() {
+            Polled::Waiting => return,
+            Polled::Done(Ok(note)) => self.notes.push(note),
+            Polled::Done(Err(_)) if exporting.is_cancelled() => {}
+            Polled::Done(Err(reason)) => self.messages.push(reason),
+            Polled::Failed => self.messages.push("the export failed; please report it".to_owned()),
+        }
+        self.exporting = None;
+    }
+
+    pub(super) fn save_picture(&mut self) {
+        let Some(document) = self.documents.get(self.active) else { return };
+        let name = document.path.with_extension("png");
+        let dialog = rfd::FileDialog::new()
+            .set_title("Save a picture")
+            .add_filter("PNG", &["png"])
+            .set_file_name(name.file_name().unwrap_or_default().to_string_lossy());
+        if let Some(path) = dialog.save_file() {
+            self.picture_to(&path, [1920, 1440]);
+        }
+    }
+
+    pub(super) fn picture(&mut self, size: [u32; 2]) -> Result<Picture, String> {
+        let look = Look { samples: 16, ..self.look(self.bounds()) };
+        let camera = self.view.camera();
+        let is_deviation = self.display.colors == display::Colors::Deviation;
+        self.viewport.invalidate();
+        let document = self.documents.get_mut(self.active).ok_or("nothing is open")?;
+        let renderer = match &mut document.deviation {
+            Some(deviation) if is_deviation => &mut deviation.renderer,
+            _ => &mut document.renderer,
+        };
+        renderer.picture(&camera, size, &look).map_err(|error| error.to_string())
+    }
+
+    /// Draws what is shown into a PNG file of `size` pixels.
+    pub fn picture_to(&mut self, path: &Path, size: [u32; 2]) {
+        let made = self.picture(size).and_then(|picture| picture.to_png().map_err(|e| e.to_string()));
+        let written = made.and_then(|png| std::fs::write(path, png).map_err(|e| e.to_string()));
+        match written {
+            Ok(()) => self.notes.push(format!("wrote {}", path.display())),
+            Err(error) => self.messages.push(format!("cannot save {}: {error}", path.display())),
+        }
+    }
+
+    pub(super) fn copy_picture(&mut self) {
+        if self.documents.is_empty() {
+            return;
+        }
+        let height = 1080;
+        match self.picture([(f64::from(height) * self.aspect).round().clamp(1.0, 4096.0) as u32, height]) {
+            Ok(picture) => {
+                let size = [picture.width as usize, picture.height as usize];
+                self.context.copy_image(egui::ColorImage::from_rgba_unmultiplied(size, &picture.rgba));
+                self.notes.push("the picture is in the clipboard".to_owned());
+            }
+            Err(error) => self.messages.push(error),
+        }
+    }
+}

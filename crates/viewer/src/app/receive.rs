@@ -1,0 +1,166 @@
+//! Files that are being read: what has arrived of them goes into documents.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use trimloop_brep::Model;
+use trimloop_render::RenderError;
+
+use crate::document::Document;
+use crate::loader::{Arrival, Loading, ReadyPart};
+
+use super::{App, Load};
+
+impl App {
+    pub(super) fn start(&mut self, path: PathBuf, is_reload: bool) {
+        let context = self.context.clone();
+        let loading = Loading::start(path, is_reload, move || context.request_repaint());
+        self.loading.push(Load { loading, held: None });
+    }
+
+    /// Takes over what has been read, and reads again what changed.
+    pub(super) fn receive(&mut self) {
+        let mut still = Vec::new();
+        for mut load in std::mem::take(&mut self.loading) {
+            if load.loading.is_cancelled() {
+                self.documents.retain(|own| Some(own.id) != load.loading.document);
+                self.active = self.active.min(self.documents.len().saturating_sub(1));
+                continue;
+            }
+            if self.receive_of(&mut load) {
+                still.push(load);
+            }
+        }
+        still.append(&mut self.loading);
+        self.loading = still;
+        let paths: Vec<PathBuf> = self.documents.iter().map(|d| d.path.clone()).collect();
+        let (changed, is_pending) = self.watch.changed(&paths);
+        for path in changed {
+            if !self.loading.iter().any(|own| own.loading.path == path) {
+                self.start(path, true);
+            }
+        }
+        if is_pending || !self.loading.is_empty() || self.exporting.is_some() {
+            self.context.request_repaint_after(std::time::Duration::from_millis(100));
+        }
+        if let Some(document) = self.documents.get_mut(self.active)
+            && document.measure.poll()
+        {
+            self.context.request_repaint();
+        }
+        self.receive_comparison();
+        self.receive_export();
+    }
+
+    /// Takes over what has arrived of a file; whether more is to come.
+    pub(super) fn receive_of(&mut self, load: &mut Load) -> bool {
+        // Parts go to the device one by one: no frame waits for all of them.
+        let start = std::time::Instant::now();
+        while start.elapsed().as_millis() < 12 {
+            let Some(arrival) = load.loading.poll() else { return true };
+            let failed = match arrival {
+                Arrival::Failed(reason) => Err(reason),
+                Arrival::Model(model) if load.loading.is_reload => {
+                    load.held = Some((model, Vec::new()));
+                    Ok(())
+                }
+                Arrival::Model(model) => self.begin(load, model).map_err(|error| error.to_string()),
+                Arrival::Part(part) => match &mut load.held {
+                    Some((_, parts)) => {
+                        parts.push(*part);
+                        Ok(())
+                    }
+                    None => match self.documents.iter_mut().find(|own| Some(own.id) == load.loading.document)
+                    {
+                        Some(document) => document.take(*part).map_err(|error| error.to_string()),
+                        // It was closed meanwhile.
+                        None => return false,
+                    },
+                },
+                Arrival::Done(seconds) => {
+                    let held = load.held.take();
+                    if let Err(error) = self.end(load, held, seconds) {
+                        self.fail(load, &error.to_string());
+                    }
+                    return false;
+                }
+            };
+            if let Err(reason) = failed {
+                self.fail(load, &reason);
+                return false;
+            }
+        }
+        self.context.request_repaint();
+        true
+    }
+
+    pub(super) fn fail(&mut self, load: &Load, reason: &str) {
+        self.messages.push(format!("{}: {reason}", load.loading.path.display()));
+        self.documents.retain(|own| Some(own.id) != load.loading.document);
+        self.active = self.active.min(self.documents.len().saturating_sub(1));
+    }
+
+    /// A file's model is there: its tree can be shown, its parts are to come.
+    pub(super) fn begin(&mut self, load: &mut Load, model: Arc<Model>) -> Result<(), RenderError> {
+        let path = load.loading.path.clone();
+        let document = Document::new(&self.gpu, self.next_id, path.clone(), model)?;
+        load.loading.document = Some(self.next_id);
+        self.next_id += 1;
+        self.watch.add(&path);
+        self.settings.remember(&path);
+        self.documents.push(document);
+        self.activate(self.documents.len() - 1);
+        Ok(())
+    }
+
+    /// All of a file is there.
+    pub(super) fn end(
+        &mut self,
+        load: &Load,
+        held: Option<(Arc<Model>, Vec<ReadyPart>)>,
+        seconds: f64,
+    ) -> Result<(), RenderError> {
+        let Some((model, parts)) = held else {
+            let wanted = load.loading.document;
+            if let Some(place) = self.documents.iter().position(|own| Some(own.id) == wanted) {
+                self.documents[place].finish(seconds);
+                if let Some(reference) = self.reference.take() {
+                    self.compare_with_of(place, reference);
+                }
+                // What is there now may reach farther than what the file's vertices told.
+                if place == self.active && self.fitted == Some(self.view) {
+                    self.is_fitted = false;
+                }
+            }
+            return Ok(());
+        };
+        let path = &load.loading.path;
+        let Some(place) = self.documents.iter().position(|own| own.path == *path) else { return Ok(()) };
+        let mut document = Document::new(&self.gpu, self.next_id, path.clone(), model)?;
+        self.next_id += 1;
+        for part in parts {
+            document.take(part)?;
+        }
+        document.finish(seconds);
+        // What was hidden stays hidden, where it can be told.
+        let before = &self.documents[place];
+        let hidden: std::collections::HashSet<&str> = before
+            .renderer
+            .scene()
+            .instances
+            .iter()
+            .filter(|i| !i.is_shown)
+            .filter_map(|i| Some(before.model.nodes[i.node?].name.as_str()))
+            .collect();
+        for node in 0..document.model.nodes.len() {
+            let own = &document.model.nodes[node];
+            if own.part.is_some() && !own.name.is_empty() && hidden.contains(own.name.as_str()) {
+                document.show(node, false);
+            }
+        }
+        document.explode(before.explosion());
+        self.documents[place] = document;
+        self.tree.reset();
+        Ok(())
+    }
+}
