@@ -51,6 +51,8 @@ pub enum With {
 pub mod key {
     /// Escape.
     pub const ESCAPE: u32 = 0xff1b;
+    /// Return.
+    pub const RETURN: u32 = 0xff0d;
     /// F5.
     pub const F5: u32 = 0xffc2;
     pub(super) const SHIFT: u32 = 0xffe1;
@@ -102,6 +104,9 @@ impl Window {
             .env("XDG_CONFIG_HOME", home.path())
             .env("XDG_RUNTIME_DIR", home.path())
             .env_remove("WAYLAND_DISPLAY")
+            // Dialogs of the system would wait for somebody.
+            .env("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nonexistent")
+            .env("PATH", "/nonexistent")
             .spawn()
             .with_context(|| format!("cannot start {}", program.display()))?;
         let mut own = Self { display, program: Killed(child), connection, root, size, _home: home };

@@ -1,5 +1,6 @@
 //! The window.
 
+mod ask;
 mod files;
 mod keys;
 mod menu;
@@ -32,6 +33,8 @@ use crate::tree::{Tree, TreeAction};
 use crate::viewport::{Controls, Shown, Viewport};
 use crate::watch::Watch;
 use crate::{ViewError, ViewOptions};
+
+use ask::{Asking, Typing, Wanted};
 
 /// The viewer's window and all that is open in it.
 pub struct App {
@@ -69,6 +72,9 @@ pub struct App {
     reference: Option<PathBuf>,
     /// For tests: the device is to be destroyed.
     loses_device: bool,
+    /// A path that somebody is being asked for.
+    asking: Option<Asking>,
+    typing: Option<Typing>,
     watch: Watch,
     shared: Arc<Mutex<State>>,
     /// The shape of the picture, as it was last.
@@ -145,6 +151,8 @@ impl App {
             comparing: None,
             reference: options.reference,
             loses_device: options.loses_device,
+            asking: None,
+            typing: None,
             watch: Watch::new(wake),
             shared: Arc::default(),
             aspect: 1.0,
@@ -355,7 +363,7 @@ impl App {
             self.act(action);
         }
         if let Some(DisplayAction::ChooseReference) = asked {
-            self.choose_reference();
+            self.ask(Wanted::Reference);
         }
     }
 }
@@ -396,6 +404,7 @@ impl App {
         }
         egui::Panel::left("side").default_size(330.0).resizable(true).show(ui, |ui| self.side(ui));
         self.help(&ui.ctx().clone());
+        self.path_dialog(ui);
         self.export_dialog(&ui.ctx().clone());
         let frame = egui::Frame::NONE;
         egui::CentralPanel::default().frame(frame).show(ui, |ui| self.model(ui));

@@ -145,20 +145,12 @@ fn write(
         quantize: options.quantize,
         meshopt: options.meshopt,
     };
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let failed = |error: std::io::Error| format!("cannot write {}: {error}", path.display());
-    let draft = tempfile::Builder::new().suffix(".tmp").tempfile_in(folder).map_err(failed)?;
-    let mut out = BufWriter::new(draft);
-    trimloop_gltf::write_glb(&model, &meshes, &gltf, &mut out)
-        .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
-    out.flush().map_err(failed)?;
-    let draft = out.into_inner().map_err(|error| failed(error.into_error()))?;
-    if progress.cancelled() {
-        return Err("stopped".to_owned());
-    }
-    let bytes = draft.as_file().metadata().map_or(0, |m| m.len());
-    set_usual_permissions(draft.as_file());
-    draft.persist(path).map_err(|error| failed(error.error))?;
+    let mut bytes = 0;
+    whole_file(path, |out| {
+        let written = trimloop_gltf::write_glb(&model, &meshes, &gltf, out);
+        bytes = written.map_err(|error| std::io::Error::other(error.to_string()))?.bytes;
+        if progress.cancelled() { Err(std::io::Error::other("stopped")) } else { Ok(()) }
+    })?;
     let lost = meshes
         .iter()
         .flat_map(|mesh| &mesh.faces)
@@ -169,6 +161,22 @@ fn write(
         n => format!("{n} faces lost"),
     };
     Ok(format!("wrote {} ({} KiB, {lost})", path.display(), bytes.div_ceil(1024)))
+}
+
+/// Writes a file under a temporary name and renames it into its place when it is complete.
+pub(crate) fn whole_file(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> Result<(), String> {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let failed = |error: std::io::Error| format!("cannot write {}: {error}", path.display());
+    let draft = tempfile::Builder::new().suffix(".tmp").tempfile_in(folder).map_err(failed)?;
+    let mut out = BufWriter::new(draft);
+    write(&mut out).map_err(failed)?;
+    let draft = out.into_inner().map_err(|error| failed(error.into_error()))?;
+    set_usual_permissions(draft.as_file());
+    draft.persist(path).map_err(|error| failed(error.error))?;
+    Ok(())
 }
 
 /// Temporary files are for their owner alone; others are not.

@@ -79,6 +79,30 @@ fn a_window_turns_comes_back_and_outlives_its_device() {
 }
 
 #[test]
+fn a_picture_is_saved_where_there_is_no_file_dialog() {
+    if !has_display() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("part.step");
+    std::fs::copy(fixture::folder().join("cadquery/bracket.step"), &file).expect("copied");
+    let window =
+        Window::open(Path::new(PROGRAM), ["view".as_ref(), file.as_os_str()], SIZE).expect("a window");
+    window.settled().expect("a picture");
+    window.press(b's', With::Control).expect("a key");
+    // A line with the path beside the file, which only needs to be confirmed.
+    let pause = || std::thread::sleep(std::time::Duration::from_secs(2));
+    pause();
+    window.press(key::RETURN, With::Nothing).expect("a key");
+    let png = folder.path().join("part.png");
+    (0..30).take_while(|_| !png.exists()).for_each(|_| pause());
+    let png = std::fs::read(png).expect("a file");
+    let picture = Picture::from_png(&png).expect("a picture");
+    assert_eq!(picture.height, 1440);
+    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 2);
+}
+
+#[test]
 fn without_a_display_or_a_device_that_is_said() {
     let file = fixture::folder().join("cadquery/box.step");
     let run = |variables: &[(&str, &str)]| {

@@ -6,35 +6,12 @@ use trimloop_render::{Look, Picture};
 
 use crate::deviation::{self, Deviation};
 use crate::display;
-use crate::export::Exporting;
+use crate::export::{Exporting, whole_file};
 use crate::job::{Job, Polled};
 
 use super::App;
 
-/// Files that can be opened, by the ends of their names.
-const CAD: [&str; 7] = ["step", "stp", "stpz", "igs", "iges", "tspline", "gz"];
-
-const MESHES: [&str; 7] = ["stl", "obj", "ply", "gltf", "glb", "3mf", "step"];
-
 impl App {
-    pub(super) fn choose_files(&mut self) {
-        let dialog =
-            rfd::FileDialog::new().set_title("Open").add_filter("CAD", &CAD).add_filter("Everything", &["*"]);
-        for file in dialog.pick_files().unwrap_or_default() {
-            self.open(file);
-        }
-    }
-
-    pub(super) fn choose_reference(&mut self) {
-        let dialog = rfd::FileDialog::new()
-            .set_title("Compare with")
-            .add_filter("Meshes and CAD", &MESHES)
-            .add_filter("Everything", &["*"]);
-        if let Some(path) = dialog.pick_file() {
-            self.compare_with(path);
-        }
-    }
-
     /// Begins to measure how far the file that is shown is from a reference.
     pub fn compare_with(&mut self, reference: PathBuf) {
         self.compare_with_of(self.active, reference);
@@ -74,18 +51,6 @@ impl App {
         }
     }
 
-    pub(super) fn choose_export(&mut self) {
-        let Some(document) = self.documents.get(self.active) else { return };
-        let name = document.path.with_extension("glb");
-        let dialog = rfd::FileDialog::new()
-            .set_title("Export")
-            .add_filter("glTF", &["glb"])
-            .set_file_name(name.file_name().unwrap_or_default().to_string_lossy());
-        if let Some(path) = dialog.save_file() {
-            self.export_to(path);
-        }
-    }
-
     /// Begins to write what is shown to a glTF file.
     pub fn export_to(&mut self, path: PathBuf) {
         let Some(document) = self.documents.get(self.active) else { return };
@@ -110,18 +75,6 @@ impl App {
         self.exporting = None;
     }
 
-    pub(super) fn save_picture(&mut self) {
-        let Some(document) = self.documents.get(self.active) else { return };
-        let name = document.path.with_extension("png");
-        let dialog = rfd::FileDialog::new()
-            .set_title("Save a picture")
-            .add_filter("PNG", &["png"])
-            .set_file_name(name.file_name().unwrap_or_default().to_string_lossy());
-        if let Some(path) = dialog.save_file() {
-            self.picture_to(&path, [1920, 1440]);
-        }
-    }
-
     pub(super) fn picture(&mut self, size: [u32; 2]) -> Result<Picture, String> {
         let look = Look { samples: 16, ..self.look(self.bounds()) };
         let camera = self.view.camera();
@@ -138,7 +91,7 @@ impl App {
     /// Draws what is shown into a PNG file of `size` pixels.
     pub fn picture_to(&mut self, path: &Path, size: [u32; 2]) {
         let made = self.picture(size).and_then(|picture| picture.to_png().map_err(|e| e.to_string()));
-        let written = made.and_then(|png| std::fs::write(path, png).map_err(|e| e.to_string()));
+        let written = made.and_then(|png| whole_file(path, |out| out.write_all(&png)));
         match written {
             Ok(()) => self.notes.push(format!("wrote {}", path.display())),
             Err(error) => self.messages.push(format!("cannot save {}: {error}", path.display())),

@@ -5,6 +5,7 @@ use trimloop_render::Direction;
 
 use crate::panels::Tab;
 
+use super::ask::Wanted;
 use super::{App, SIDES};
 
 /// Keys and what they do, as the help lists them.
@@ -42,10 +43,10 @@ impl App {
         };
         let plain = |key: Key| hit(Modifiers::NONE, key);
         if hit(Modifiers::COMMAND, Key::O) {
-            self.choose_files();
+            self.ask(Wanted::Open);
         }
         if hit(Modifiers::COMMAND, Key::S) {
-            self.save_picture();
+            self.ask(Wanted::Picture);
         }
         // Windows make an event of their own of this key.
         if ui.input(|input| input.events.iter().any(|event| matches!(event, egui::Event::Copy))) {

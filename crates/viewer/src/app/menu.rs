@@ -8,6 +8,7 @@ use crate::export::ExportOptions;
 use crate::navigation::{Style, TwoFingers};
 use crate::panels::Tab;
 
+use super::ask::Wanted;
 use super::{App, Load, SIDES};
 
 /// The height of messages, points.
@@ -102,7 +103,7 @@ impl App {
     pub(super) fn file_menu(&mut self, ui: &mut Ui) {
         if ui.button("Open…  (Ctrl+O)").clicked() {
             ui.close();
-            self.choose_files();
+            self.ask(Wanted::Open);
         }
         let mut chosen = None;
         ui.menu_button("Open recent", |ui| {
@@ -124,7 +125,7 @@ impl App {
         let has_file = !self.documents.is_empty();
         if ui.add_enabled(has_file, egui::Button::new("Save a picture…  (Ctrl+S)")).clicked() {
             ui.close();
-            self.save_picture();
+            self.ask(Wanted::Picture);
         }
         if ui.add_enabled(has_file, egui::Button::new("Copy the picture  (Ctrl+C)")).clicked() {
             ui.close();
@@ -136,7 +137,7 @@ impl App {
         }
         if ui.add_enabled(has_file, egui::Button::new("Compare with a reference…")).clicked() {
             ui.close();
-            self.choose_reference();
+            self.ask(Wanted::Reference);
         }
         ui.separator();
         if ui.add_enabled(has_file, egui::Button::new("Close  (Ctrl+W)")).clicked() {
@@ -256,7 +257,7 @@ impl App {
         });
         self.is_export_open = is_open;
         if is_chosen {
-            self.choose_export();
+            self.ask(Wanted::Export);
         }
     }
 }

@@ -50,6 +50,7 @@ impl App {
         }
         self.receive_comparison();
         self.receive_export();
+        self.receive_answer();
     }
 
     /// Takes over what has arrived of a file; whether more is to come.
