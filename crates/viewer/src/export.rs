@@ -3,14 +3,13 @@
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 use trimloop_brep::Model;
 use trimloop_gltf::{GltfOptions, UpAxis};
 use trimloop_mesh::{LinearDeflection, MeshOptions, Monitor, PartMesh};
 
-use crate::job::Job;
+use crate::job::{FaceProgress, Job};
 
 /// The converter's options, as the dialog shows them.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -51,25 +50,8 @@ impl Default for ExportOptions {
 #[derive(Debug)]
 pub(crate) struct Exporting {
     pub path: PathBuf,
-    progress: Arc<ExportProgress>,
+    progress: Arc<FaceProgress>,
     pub job: Job<Result<String, String>>,
-}
-
-#[derive(Debug, Default)]
-struct ExportProgress {
-    faces: usize,
-    done: AtomicUsize,
-    is_cancelled: AtomicBool,
-}
-
-impl Monitor for ExportProgress {
-    fn face_done(&self) {
-        self.done.fetch_add(1, Ordering::Relaxed);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.is_cancelled.load(Ordering::Relaxed)
-    }
 }
 
 impl Exporting {
@@ -81,19 +63,19 @@ impl Exporting {
         options: ExportOptions,
         path: PathBuf,
     ) -> Self {
-        let faces = model.parts.iter().map(|part| part.faces.len()).sum();
-        let progress = Arc::new(ExportProgress { faces, ..ExportProgress::default() });
+        let progress = Arc::new(FaceProgress::default());
+        progress.expect(model);
         let (own, to, model) = (progress.clone(), path.clone(), model.clone());
         let job = Job::start(context, move || write(&model, &is_shown, &options, &to, &own));
         Self { path, progress, job }
     }
 
     pub fn share(&self) -> f32 {
-        self.progress.done.load(Ordering::Relaxed) as f32 / self.progress.faces.max(1) as f32
+        self.progress.share().unwrap_or(0.0)
     }
 
     pub fn cancel(&self) {
-        self.progress.is_cancelled.store(true, Ordering::Relaxed);
+        self.progress.cancel();
     }
 
     pub fn is_cancelled(&self) -> bool {
@@ -107,7 +89,7 @@ fn write(
     is_shown: &[bool],
     options: &ExportOptions,
     path: &Path,
-    progress: &ExportProgress,
+    progress: &FaceProgress,
 ) -> Result<String, String> {
     let mut model = model.clone();
     for (node, is_shown) in model.nodes.iter_mut().zip(is_shown) {

@@ -1,9 +1,12 @@
 //! Work that must not keep the window waiting.
 
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use rayon::ThreadPool;
+use trimloop_brep::Model;
+use trimloop_mesh::Monitor;
 
 /// Workers of their own: those of the window must not wait for what others are busy with.
 #[derive(Debug)]
@@ -22,6 +25,41 @@ impl Workers {
             Some(pool) => pool.install(work),
             None => work(),
         }
+    }
+}
+
+/// How far the work on a model's faces is, and whether somebody stopped it.
+#[derive(Debug, Default)]
+pub(crate) struct FaceProgress {
+    faces: OnceLock<usize>,
+    done: AtomicUsize,
+    is_cancelled: AtomicBool,
+}
+
+impl FaceProgress {
+    /// It is known now what there is to do.
+    pub fn expect(&self, model: &Model) {
+        self.faces.get_or_init(|| model.parts.iter().map(|part| part.faces.len()).sum());
+    }
+
+    /// The share that is done; `None` as long as nobody knows of what.
+    pub fn share(&self) -> Option<f32> {
+        let faces = *self.faces.get()?;
+        Some(self.done.load(Ordering::Relaxed) as f32 / faces.max(1) as f32)
+    }
+
+    pub fn cancel(&self) {
+        self.is_cancelled.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Monitor for FaceProgress {
+    fn face_done(&self) {
+        self.done.fetch_add(1, Ordering::Relaxed);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.is_cancelled.load(Ordering::Relaxed)
     }
 }
 

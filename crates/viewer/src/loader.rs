@@ -2,8 +2,6 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 
 use rayon::prelude::*;
@@ -12,7 +10,7 @@ use trimloop_import::ImportOptions;
 use trimloop_mesh::Monitor;
 use trimloop_render::ScenePart;
 
-use crate::job::READERS;
+use crate::job::{FaceProgress, READERS};
 
 /// A file on its way.
 #[derive(Debug)]
@@ -22,7 +20,7 @@ pub(crate) struct Loading {
     pub is_reload: bool,
     /// The document that its parts go to.
     pub document: Option<u64>,
-    progress: Arc<LoadProgress>,
+    progress: Arc<FaceProgress>,
     arrivals: Receiver<Arrival>,
 }
 
@@ -44,28 +42,10 @@ pub(crate) struct ReadyPart {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// How far it is, and whether somebody stopped it.
-#[derive(Debug, Default)]
-struct LoadProgress {
-    faces: OnceLock<usize>,
-    done: AtomicUsize,
-    is_cancelled: AtomicBool,
-}
-
-impl Monitor for LoadProgress {
-    fn face_done(&self) {
-        self.done.fetch_add(1, Ordering::Relaxed);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.is_cancelled.load(Ordering::Relaxed)
-    }
-}
-
 impl Loading {
     /// Begins to read `path`; `wake` is called whenever something has arrived.
     pub fn start(path: PathBuf, is_reload: bool, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let progress = Arc::new(LoadProgress::default());
+        let progress = Arc::new(FaceProgress::default());
         let (sender, arrivals) = channel();
         let (own, from) = (progress.clone(), path.clone());
         std::thread::spawn(move || {
@@ -94,12 +74,11 @@ impl Loading {
 
     /// The share that is done; `None` while the file is being read.
     pub fn share(&self) -> Option<f32> {
-        let faces = *self.progress.faces.get()?;
-        Some(self.progress.done.load(Ordering::Relaxed) as f32 / faces.max(1) as f32)
+        self.progress.share()
     }
 
     pub fn cancel(&self) {
-        self.progress.is_cancelled.store(true, Ordering::Relaxed);
+        self.progress.cancel();
     }
 
     pub fn is_cancelled(&self) -> bool {
@@ -116,7 +95,7 @@ impl Drop for Loading {
 
 fn load(
     path: &Path,
-    progress: &LoadProgress,
+    progress: &FaceProgress,
     sender: &Sender<Arrival>,
     wake: &(dyn Fn() + Send + Sync),
 ) -> Result<(), String> {
@@ -125,7 +104,7 @@ fn load(
     if model.parts.iter().all(|part| part.faces.is_empty() && part.curves.is_empty()) {
         return Err("there is nothing in it that could be drawn".to_owned());
     }
-    let _ = progress.faces.set(model.parts.iter().map(|part| part.faces.len()).sum());
+    progress.expect(&model);
     let model = Arc::new(model);
     let send = |arrival: Arrival| {
         let _ = sender.send(arrival);
