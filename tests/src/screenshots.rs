@@ -82,6 +82,7 @@ fn explode(window: &Window) -> anyhow::Result<()> {
     window.click([193, 524], With::Nothing)?;
     window.settled()?;
     window.drag(1, [22, 602], [100, 602])?;
+    window.settled()?;
     window.press(b'f', With::Nothing)?;
     window.move_to(ASIDE)
 }
@@ -117,7 +118,6 @@ fn deviation(window: &Window) -> anyhow::Result<()> {
 }
 
 fn keys(window: &Window) -> anyhow::Result<()> {
-    window.scroll([780, 430], 3)?;
     window.press(b'/', With::Shift)?;
     window.move_to(ASIDE)
 }

@@ -60,7 +60,7 @@ pub mod key {
 }
 
 /// A picture that stays the same for so long is the one that was waited for.
-const REST: Duration = Duration::from_millis(500);
+const REST: Duration = Duration::from_millis(900);
 /// Longer nothing is waited for.
 const PATIENCE: Duration = Duration::from_secs(60);
 /// The program is given so much time between what is done to it.
