@@ -824,6 +824,13 @@ fn fans(key: &PieceKey, face: &SurfaceFace) -> TrimFans {
         let lengths = DVec2::from(face.bounds.lengths);
         return TrimFans::of_curves(&hierarchy.trims(off_mm), lengths, off_mm);
     }
+    // What closes a cut has curves alone.
+    if face.domain.loops.is_empty() {
+        let share = |cubic: &Cubic| cubic.map(|p| face.share(p));
+        let chains: Vec<Vec<Cubic>> =
+            face.chains.iter().map(|chain| chain.iter().map(share).collect()).collect();
+        return TrimFans::of_curves(&chains, DVec2::from(face.bounds.lengths), TRIMS * key.off_mm());
+    }
     let [u, v] = face.shape.domain();
     TrimFans::new(&face.domain, DVec2::new(u.start, v.start), DVec2::new(u.end, v.end))
 }

@@ -45,11 +45,18 @@ pub struct App {
     /// Counts documents.
     next_id: u64,
     active: usize,
+    /// The document that view and sections are of.
+    shown: Option<u64>,
+    /// The one whose tab has been brought into sight.
+    told_active: Option<u64>,
     loading: Vec<Load>,
+    /// Files that changed on disk while they were being read.
+    changed: Vec<PathBuf>,
     viewport: Viewport,
     view: Navigation,
     /// The view as it was fitted while parts were still to come.
     fitted: Option<Navigation>,
+    fitted_aspect: f64,
     /// Views to return to.
     past: Vec<Navigation>,
     future: Vec<Navigation>,
@@ -61,15 +68,16 @@ pub struct App {
     settings: Settings,
     /// What went wrong, for as long as nobody closes it.
     messages: Vec<String>,
-    /// What went well.
+    /// What went well, and when last.
     notes: Vec<String>,
+    noted: Option<std::time::Instant>,
     is_help_open: bool,
     is_export_open: bool,
     exporting: Option<Exporting>,
     /// A document's distances from a reference, on their way.
-    comparing: Option<(u64, Job<Result<Distances, String>>)>,
-    /// What the first file is to be held against, once it is there.
-    reference: Option<PathBuf>,
+    comparing: Option<Comparing>,
+    /// A file, and what it is to be held against once it is there.
+    reference: Option<(PathBuf, PathBuf)>,
     /// For tests: the device is to be destroyed.
     loses_device: bool,
     /// A path that somebody is being asked for.
@@ -84,11 +92,26 @@ pub struct App {
     is_resumed: bool,
 }
 
+/// The document that is compared, with what, and what comes of it.
+type Comparing = (u64, PathBuf, Job<Result<Distances, String>>);
+
 /// A file being read.
 struct Load {
     loading: Loading,
     /// What arrived of a file that replaces another, which stays until all of it is there.
     held: Option<(Arc<trimloop_brep::Model>, Vec<ReadyPart>)>,
+    /// Whether it comes to the front as soon as there is something to see.
+    is_front: bool,
+}
+
+/// From where a document is seen, and how it is cut: what is put away while another one is shown.
+#[derive(Clone, Debug)]
+pub(crate) struct Sight {
+    view: Navigation,
+    fitted: Option<Navigation>,
+    past: Vec<Navigation>,
+    future: Vec<Navigation>,
+    cuts: Cuts,
 }
 
 /// Views that can be returned to.
@@ -135,6 +158,7 @@ impl App {
             viewport: Viewport::default(),
             view,
             fitted: None,
+            fitted_aspect: 1.0,
             past: Vec::new(),
             future: Vec::new(),
             look: Look { up: options.up, lod, ..Look::default() },
@@ -145,11 +169,15 @@ impl App {
             settings,
             messages: Vec::new(),
             notes: Vec::new(),
+            noted: None,
+            shown: None,
+            told_active: None,
+            changed: Vec::new(),
             is_help_open: false,
             is_export_open: false,
             exporting: None,
             comparing: None,
-            reference: options.reference,
+            reference: options.files.first().cloned().zip(options.reference),
             loses_device: options.loses_device,
             asking: None,
             typing: None,
@@ -167,7 +195,7 @@ impl App {
             }
             app.messages.push("the graphics device was lost; the files were opened again".to_owned());
         }
-        options.files.into_iter().for_each(|file| app.open(file));
+        app.open_all(options.files);
         Ok(app)
     }
 
@@ -238,22 +266,84 @@ impl App {
 
     /// Begins to read a file.
     pub fn open(&mut self, path: PathBuf) {
-        self.start(path, false);
+        self.open_all(vec![path]);
     }
 
+    /// Begins to read files, of which the first comes to the front; one that is open already comes to the front as it is.
+    pub fn open_all(&mut self, paths: Vec<PathBuf>) {
+        let full = |path: &PathBuf| std::fs::canonicalize(path).unwrap_or_else(|_| path.clone());
+        for (k, path) in paths.into_iter().enumerate() {
+            let own = full(&path);
+            let place = self.documents.iter().position(|document| full(&document.path) == own);
+            let is_read = self.loading.iter().any(|load| full(&load.loading.path) == own);
+            match place {
+                Some(place) => self.activate(place),
+                None if is_read => {}
+                None => self.start(path, false, k == 0),
+            }
+        }
+    }
+
+    /// Brings a document to the front, as it was seen and cut when it was there last.
     fn activate(&mut self, index: usize) {
+        if let Some(shown) = self.documents.iter_mut().find(|own| Some(own.id) == self.shown) {
+            shown.sight = Some(Sight {
+                view: self.view,
+                fitted: self.fitted,
+                past: std::mem::take(&mut self.past),
+                future: std::mem::take(&mut self.future),
+                cuts: self.cuts,
+            });
+        }
         self.active = index;
-        self.is_fitted = std::mem::take(&mut self.is_resumed);
-        self.fitted = None;
         self.tree.reset();
-        self.cuts = Cuts::new();
+        self.past.clear();
+        self.future.clear();
+        let next = self.documents.get_mut(index);
+        self.shown = next.as_ref().map(|own| own.id);
+        match next.and_then(|own| own.sight.take()) {
+            Some(sight) => {
+                self.view = Navigation { up: self.look.up, ..sight.view };
+                (self.fitted, self.cuts) = (sight.fitted, sight.cuts);
+                (self.past, self.future) = (sight.past, sight.future);
+                self.is_fitted = true;
+            }
+            None => {
+                self.is_fitted = std::mem::take(&mut self.is_resumed);
+                self.fitted = None;
+                self.cuts = Cuts::new();
+            }
+        }
     }
 
     fn close(&mut self, index: usize) {
-        if index < self.documents.len() {
-            self.documents.remove(index);
+        let id = self.documents.get(index).map(|document| document.id);
+        self.drop_document(id);
+    }
+
+    /// Closes a document, if there is one of that number. Another one comes to the front only where it was there.
+    fn drop_document(&mut self, id: Option<u64>) {
+        let Some(index) = self.documents.iter().position(|own| Some(own.id) == id) else { return };
+        self.documents.remove(index);
+        if index < self.active {
+            self.active -= 1;
+        } else if index == self.active {
             self.activate(self.active.min(self.documents.len().saturating_sub(1)));
         }
+    }
+
+    /// Tells what went wrong, once.
+    fn complain(&mut self, message: String) {
+        if !self.messages.contains(&message) {
+            self.messages.push(message);
+        }
+    }
+
+    /// Tells what went well, for a while.
+    fn note(&mut self, note: String) {
+        self.notes.retain(|own| *own != note);
+        self.notes.push(note);
+        self.noted = Some(std::time::Instant::now());
     }
 
     /// Remembers the present view before it changes.
@@ -279,6 +369,20 @@ impl App {
                 .collect(),
             None => document.outline(None),
         };
+        let before = self.view;
+        self.view.fit(&points, self.aspect);
+        if before != self.view {
+            self.remember(before);
+        }
+    }
+
+    /// Looks at what is selected.
+    fn fit_selection(&mut self) {
+        let Some(document) = self.documents.get_mut(self.active) else { return };
+        let points = document.outline_of_selection();
+        if points.is_empty() {
+            return;
+        }
         let before = self.view;
         self.view.fit(&points, self.aspect);
         if before != self.view {
@@ -324,39 +428,43 @@ impl App {
         let mut asked = None;
         // Not of what is left: messages come and go.
         let height = ui.ctx().content_rect().height();
-        egui::Panel::bottom("details").resizable(true).default_size(0.42 * height).show(ui, |ui| {
-            ui.add_space(4.0);
-            let count = document.diagnostics.len();
-            let report = if count > 0 { format!("Report ({count})") } else { "Report".to_owned() };
-            ui.horizontal(|ui| {
-                for (tab, name) in [
-                    (Tab::Selection, "Selection"),
-                    (Tab::Section, "Section"),
-                    (Tab::Display, "Appearance"),
-                    (Tab::Report, report.as_str()),
-                ] {
-                    ui.selectable_value(&mut self.tab, tab, name);
+        egui::Panel::bottom("details").resizable(true).min_size(140.0).default_size(0.42 * height).show(
+            ui,
+            |ui| {
+                ui.add_space(4.0);
+                let count = document.diagnostics.len();
+                let report = if count > 0 { format!("Report ({count})") } else { "Report".to_owned() };
+                ui.horizontal(|ui| {
+                    for (tab, name) in [
+                        (Tab::Selection, "Selection"),
+                        (Tab::Section, "Section"),
+                        (Tab::Display, "Appearance"),
+                        (Tab::Report, report.as_str()),
+                    ] {
+                        ui.selectable_value(&mut self.tab, tab, name);
+                    }
+                });
+                ui.separator();
+                match self.tab {
+                    Tab::Report => chosen = panels::report(ui, document),
+                    tab => {
+                        let area =
+                            egui::ScrollArea::vertical().id_salt("details").auto_shrink([false, false]);
+                        area.show(ui, |ui| match tab {
+                            Tab::Section => panels::section(ui, &mut self.cuts, bounds, document),
+                            Tab::Display => {
+                                asked = panels::display(ui, &mut self.display, bounds.diagonal(), document);
+                            }
+                            _ => panels::selection(ui, document, &mut self.settings.filter),
+                        });
+                    }
                 }
-            });
-            ui.separator();
-            match self.tab {
-                Tab::Report => chosen = panels::report(ui, document),
-                tab => {
-                    let area = egui::ScrollArea::vertical().id_salt("details").auto_shrink([false, false]);
-                    area.show(ui, |ui| match tab {
-                        Tab::Section => panels::section(ui, &mut self.cuts, bounds, document),
-                        Tab::Display => {
-                            asked = panels::display(ui, &mut self.display, bounds.diagonal(), document);
-                        }
-                        _ => panels::selection(ui, document, &mut self.settings.filter),
-                    });
-                }
-            }
-        });
+            },
+        );
         if let Some(chosen) = chosen {
+            document.reveal(&chosen);
             document.select(Some(chosen), false);
-            let nodes = document.selected_nodes();
-            self.fit(Some(&nodes));
+            self.fit_selection();
         }
         let Some(document) = self.documents.get_mut(self.active) else { return };
         for action in self.tree.show(ui, document) {
@@ -396,18 +504,24 @@ impl App {
             self.gpu.device().destroy();
         }
         let dropped = ui.ctx().input(|input| input.raw.dropped_files.clone());
-        dropped.into_iter().for_each(|file| self.open(file.path().to_path_buf()));
+        if !dropped.is_empty() {
+            self.open_all(dropped.iter().map(|file| file.path().to_path_buf()).collect());
+        }
         self.keys(ui);
         egui::Panel::top("menu").show(ui, |ui| self.menu(ui));
-        if self.has_notices() {
-            egui::Panel::bottom("notices").show(ui, |ui| self.notices(ui));
-        }
-        egui::Panel::left("side").default_size(330.0).resizable(true).show(ui, |ui| self.side(ui));
+        egui::Panel::left("side")
+            .default_size(330.0)
+            .min_size(220.0)
+            .resizable(true)
+            .show(ui, |ui| self.side(ui));
         self.help(&ui.ctx().clone());
         self.path_dialog(ui);
         self.export_dialog(&ui.ctx().clone());
         let frame = egui::Frame::NONE;
-        egui::CentralPanel::default().frame(frame).show(ui, |ui| self.model(ui));
+        egui::CentralPanel::default().frame(frame).show(ui, |ui| {
+            self.model(ui);
+            self.notices(ui);
+        });
     }
 
     fn model(&mut self, ui: &mut Ui) {
@@ -420,20 +534,26 @@ impl App {
             return;
         }
         let bounds = self.bounds();
-        if !self.is_fitted && !bounds.is_empty() {
+        // The room for it may change before anybody touched it.
+        let is_other_room = self.fitted == Some(self.view) && self.fitted_aspect != self.aspect;
+        if (!self.is_fitted || is_other_room) && !bounds.is_empty() {
             if let Some(document) = self.documents.get(self.active) {
                 self.view.fit(&document.outline(None), self.aspect);
             }
             self.fitted = Some(self.view);
+            self.fitted_aspect = self.aspect;
             self.is_fitted = true;
         }
         let look = self.look(bounds);
         let rect = ui.available_rect_before_wrap();
         let Some(document) = self.documents.get_mut(self.active) else { return };
         let is_deviation = self.display.colors == display::Colors::Deviation && document.deviation.is_some();
-        if let Err(error) = section::update_caps(ui.ctx(), document, self.cuts.sections(bounds)) {
-            self.messages.push(error.to_string());
+        let capped = section::update_caps(ui.ctx(), document, self.cuts.sections(bounds));
+        if let Err(error) = capped {
+            self.complain(error.to_string());
         }
+        let Some(document) = self.documents.get_mut(self.active) else { return };
+        document.arrange_deviation();
         let controls = Controls {
             style: self.settings.style,
             two_fingers: self.settings.two_fingers,
@@ -457,11 +577,8 @@ impl App {
             self.remember(self.view);
             self.view.target = point;
         }
-        if let Some(error) = outcome.error {
-            let message = error.to_string();
-            if !self.messages.contains(&message) && !self.gpu.is_lost() {
-                self.messages.push(message);
-            }
+        if let Some(error) = outcome.error.filter(|_| !self.gpu.is_lost()) {
+            self.complain(error.to_string());
         }
         self.want_measures();
         let Some(document) = self.documents.get(self.active) else { return };

@@ -25,6 +25,8 @@ pub(crate) struct Deviation {
     /// The distance that is red in what is drawn.
     drawn_mm: f64,
     pub renderer: Renderer,
+    /// What of the document was shown where.
+    pub arrangement: Option<u64>,
 }
 
 /// Distances at the corners of a fine mesh of the model.
@@ -32,8 +34,8 @@ pub(crate) struct Deviation {
 pub(crate) struct Distances {
     pub reference: PathBuf,
     pub convention: Option<String>,
-    /// By instance: places, normals, distances, triangles.
-    parts: Vec<Measured>,
+    /// By instance, and by face.
+    parts: Vec<Vec<Measured>>,
     pub largest_mm: f64,
     /// 99 % of the corners are nearer than this.
     pub usual_mm: f64,
@@ -81,13 +83,14 @@ pub(crate) fn measure(model: &Model, reference: &Path) -> Result<Distances, Stri
     let mut parts = Vec::new();
     let mut placed = Vec::new();
     model.visit(|node, world| {
-        if let Some(part) = node.part.filter(|_| !node.hidden) {
+        if let Some(part) = node.part {
             placed.push((part, *world));
         }
     });
     let longest = LONGEST * own.triangles.bounds().diagonal();
     let limit = own.triangles.bounds().union(shape.triangles.bounds()).diagonal();
     for (part, world) in placed {
+        let mut faces = Vec::new();
         let mesh = &meshes[part];
         let turn = world.matrix3.inverse().transpose();
         for (face, own) in model.parts[part].faces.iter().zip(&mesh.faces) {
@@ -104,10 +107,11 @@ pub(crate) fn measure(model: &Model, reference: &Path) -> Result<Distances, Stri
             let distance =
                 |p: &DVec3| target.nearest(*p, limit).map_or(0.0, |(nearest, _)| nearest.distance(*p));
             let distances = points.par_iter().map(distance).collect();
-            parts.push(Measured { points, normals, distances, triangles });
+            faces.push(Measured { points, normals, distances, triangles });
         }
+        parts.push(faces);
     }
-    let mut all: Vec<f64> = parts.iter().flat_map(|part| &part.distances).copied().collect();
+    let mut all: Vec<f64> = parts.iter().flatten().flat_map(|face| &face.distances).copied().collect();
     all.sort_by(f64::total_cmp);
     let largest_mm = all.last().copied().unwrap_or(0.0);
     let usual_mm = all.get(all.len() * 99 / 100).copied().unwrap_or(largest_mm);
@@ -168,11 +172,24 @@ impl Deviation {
     /// What the device refuses.
     pub fn new(gpu: &Gpu, found: Distances) -> Result<Self, RenderError> {
         // Rounding alone is no deviation.
-        let size = found.parts.iter().flat_map(|p| &p.points).fold(0.0_f64, |most, p| most.max(p.length()));
+        let size = found
+            .parts
+            .iter()
+            .flatten()
+            .flat_map(|p| &p.points)
+            .fold(0.0_f64, |most, p| most.max(p.length()));
         let most_mm = found.usual_mm.max(1e-9 * size).max(1e-9);
         let (reference, convention) = (found.reference.clone(), found.convention.clone());
         let renderer = Renderer::new(gpu, found.scene(most_mm))?;
-        Ok(Self { reference, convention, found: Arc::new(found), most_mm, drawn_mm: most_mm, renderer })
+        Ok(Self {
+            reference,
+            convention,
+            found: Arc::new(found),
+            most_mm,
+            drawn_mm: most_mm,
+            renderer,
+            arrangement: None,
+        })
     }
 
     /// The largest distance.
@@ -189,28 +206,35 @@ impl Deviation {
             return Ok(false);
         }
         self.drawn_mm = self.most_mm;
-        self.renderer.set_part(0, self.found.part(self.most_mm))?;
+        for k in 0..self.found.parts.len() {
+            self.renderer.set_part(k, self.found.part(k, self.most_mm))?;
+        }
         Ok(true)
     }
 }
 
 impl Distances {
     fn scene(&self, most_mm: f64) -> Scene {
-        let instance = Instance {
-            part: 0,
-            node: Some(0),
+        let instance = |part: usize| Instance {
+            part,
+            node: Some(part),
             transform: Default::default(),
             color: None,
             is_shown: true,
             closes: None,
         };
-        Scene { parts: vec![self.part(most_mm)], instances: vec![instance], ..Scene::default() }
+        let count = self.parts.len();
+        Scene {
+            parts: (0..count).map(|k| self.part(k, most_mm)).collect(),
+            instances: (0..count).map(instance).collect(),
+            ..Scene::default()
+        }
     }
 
     /// Triangles cut along lines of equal distance, each band with its colour.
-    fn part(&self, most_mm: f64) -> ScenePart {
+    fn part(&self, instance: usize, most_mm: f64) -> ScenePart {
         let all: Vec<Vec<Band>> =
-            self.parts.par_iter().map(|part| part.bands(most_mm / BANDS as f64)).collect();
+            self.parts[instance].par_iter().map(|face| face.bands(most_mm / BANDS as f64)).collect();
         let mut lists = Vec::new();
         for k in 0..BANDS {
             let [r, g, b] = heat((k as f64 + 0.5) / BANDS as f64).map(|c| f32::from(c) / 255.0);

@@ -1,6 +1,6 @@
 //! Files that are open.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,6 +13,7 @@ use trimloop_measure::{Feature, Item};
 use trimloop_render::{Highlight, Place, RenderError, Renderer, Scene};
 use trimloop_trim::Tolerance;
 
+use crate::app::Sight;
 use crate::deviation::Deviation;
 use crate::loader::ReadyPart;
 use crate::measure::{Measure, number, vector};
@@ -33,6 +34,10 @@ pub(crate) struct Document {
     pub selection: Vec<Picked>,
     pub measure: Measure,
     pub caps: Caps,
+    /// From where it is seen and how it is cut, while another one is in front.
+    pub sight: Option<Sight>,
+    /// The node that was selected in the tree, with all below it.
+    pub node: Option<usize>,
     /// How far it is from a reference.
     pub deviation: Option<Deviation>,
     /// Where instances stand in the model.
@@ -48,14 +53,14 @@ pub(crate) struct Document {
     /// The boxes of parts' vertices, and the box of what was shown at some arrangement.
     boxes: Vec<Aabb>,
     bounds: std::cell::Cell<Option<(u64, Aabb)>>,
-    /// Part and face by entity.
-    faces: HashMap<EntityRef, (usize, u32)>,
+    /// Parts, and faces, edges and vertices of them, by entity.
+    entities: HashMap<EntityRef, (usize, Feature)>,
     /// Counts what changes the picture.
     pub revision: u64,
     /// Counts what changes what is where.
     pub arrangement: u64,
     /// The node that the tree has to come to.
-    pub reveal: Option<usize>,
+    pub wanted_row: Option<usize>,
 }
 
 /// Something of an instance that can be selected.
@@ -74,6 +79,11 @@ impl Picked {
     }
 }
 
+/// Names from the root on, and which of several of a name.
+type Path = [(String, usize)];
+
+/// Room around what is looked at, as a share of the model's size.
+const ROOM: f64 = 0.01;
 /// Edges are drawn over the picture within this share of their part's size.
 const FINENESS: f64 = 2e-5;
 const ANGLE_RAD: f64 = 0.1;
@@ -109,10 +119,13 @@ impl Document {
             Aabb::from_points(all.filter(|p| p.is_finite()))
         };
         let boxes = model.parts.iter().map(own_box).collect();
-        let mut faces = HashMap::new();
+        let mut entities = HashMap::new();
         for (k, part) in model.parts.iter().enumerate() {
-            for (face, own) in (0u32..).zip(&part.faces) {
-                faces.entry(own.entity).or_insert((k, face));
+            let faces = (0u32..).zip(&part.faces).map(|(n, own)| (own.entity, Feature::Face(n)));
+            let edges = (0u32..).zip(&part.edges).map(|(n, own)| (own.entity, Feature::Edge(n)));
+            let vertices = (0u32..).zip(&part.vertices).map(|(n, own)| (own.entity, Feature::Vertex(n)));
+            for (entity, feature) in faces.chain(edges).chain(vertices) {
+                entities.entry(entity).or_insert((k, feature));
             }
         }
         Ok(Self {
@@ -125,6 +138,8 @@ impl Document {
             selection: Vec::new(),
             measure: Measure::default(),
             caps: Caps::default(),
+            sight: None,
+            node: None,
             deviation: None,
             homes,
             apart,
@@ -132,12 +147,12 @@ impl Document {
             below,
             parents,
             lines: HashMap::new(),
-            faces,
+            entities,
             boxes,
             bounds: Default::default(),
             revision: 0,
             arrangement: 0,
-            reveal: None,
+            wanted_row: None,
         })
     }
 
@@ -211,9 +226,14 @@ impl Document {
                 None => self.selection.push(picked),
             },
         }
+        self.node = None;
         if let Some(node) = picked.and_then(|p| self.node_of(p.instance)) {
-            self.reveal = Some(node);
+            self.wanted_row = Some(node);
         }
+        self.update_highlights();
+    }
+
+    fn update_highlights(&mut self) {
         let highlight = |picked: &Picked| match picked.feature {
             None => Some(Highlight { instance: picked.instance, face: None }),
             Some(Feature::Face(face)) => {
@@ -231,9 +251,14 @@ impl Document {
             self.select(None, false);
         }
         for instance in self.instances_below(node) {
-            self.select(Some(Picked { instance, feature: None, place: None }), true);
+            let picked = Picked { instance, feature: None, place: None };
+            if !self.selection.iter().any(|own| own.is_same(&picked)) {
+                self.selection.push(picked);
+            }
         }
-        self.reveal = None;
+        self.update_highlights();
+        self.node = (!is_added).then_some(node);
+        self.wanted_row = None;
     }
 
     /// The node of an instance.
@@ -245,11 +270,125 @@ impl Document {
         self.parents.get(node).copied().flatten()
     }
 
-    /// The first use of the face that an entity is.
-    pub fn find_face(&self, entity: EntityRef) -> Option<Picked> {
-        let (part, face) = *self.faces.get(&entity)?;
+    /// The first use of the face, edge or vertex that an entity is.
+    pub fn find(&self, entity: EntityRef) -> Option<Picked> {
+        let (part, feature) = *self.entities.get(&entity)?;
         let instance = self.renderer.scene().instances.iter().position(|instance| instance.part == part)?;
-        Some(Picked { instance, feature: Some(Feature::Face(face)), place: None })
+        Some(Picked { instance, feature: Some(feature), place: None })
+    }
+
+    /// Shows what something is of.
+    pub fn reveal(&mut self, picked: &Picked) {
+        self.renderer.show(picked.instance, true);
+        self.rearranged();
+    }
+
+    /// What must be in the picture for the selection to be seen: with some room around single features.
+    pub fn outline_of_selection(&mut self) -> Vec<DVec3> {
+        let mut out = Vec::new();
+        for picked in self.selection.clone() {
+            let points: Vec<DVec3> = match picked.feature {
+                None => self.outline(Some(picked.instance..picked.instance + 1)),
+                Some(Feature::Face(face)) => {
+                    let edges = self.edges_of(picked.instance, face);
+                    let lines: Vec<DVec3> =
+                        edges.into_iter().flat_map(|edge| self.line(picked.instance, edge)).collect();
+                    match lines.is_empty() {
+                        true => self.outline(Some(picked.instance..picked.instance + 1)),
+                        false => lines,
+                    }
+                }
+                Some(Feature::Edge(edge)) => self.line(picked.instance, edge),
+                Some(Feature::Vertex(vertex)) => self.vertex(picked.instance, vertex).into_iter().collect(),
+            };
+            let bounds = Aabb::from_points(points.iter().copied());
+            if bounds.is_empty() || picked.feature.is_none() {
+                out.extend(points);
+                continue;
+            }
+            let around = DVec3::splat((0.4 * bounds.diagonal()).max(ROOM * self.bounds().diagonal()));
+            out.extend(Aabb { min: bounds.min - around, max: bounds.max + around }.corners());
+        }
+        out
+    }
+
+    /// Takes over from an older state of the same file what was hidden, how far it was taken apart and what was selected,
+    /// as far as that can be found again: by names from the root, and by entities.
+    pub fn take_over(&mut self, before: &Self) {
+        let (old, new) = (before.paths(), self.paths());
+        let hidden: HashSet<&Path> =
+            old.iter().filter(|(_, node)| !before.is_shown(*node)).map(|(path, _)| path.as_slice()).collect();
+        let now: Vec<usize> =
+            new.iter().filter(|(path, _)| hidden.contains(path.as_slice())).map(|(_, node)| *node).collect();
+        for node in now {
+            if self.model.nodes[node].part.is_some() {
+                self.show(node, false);
+            }
+        }
+        self.explode(before.explosion());
+        let places: HashMap<&Path, usize> = new.iter().map(|(path, node)| (path.as_slice(), *node)).collect();
+        for picked in &before.selection {
+            let Some(node) = before.node_of(picked.instance) else { continue };
+            let path = old.iter().find(|(_, own)| *own == node).map(|(path, _)| path.as_slice());
+            let Some(now) = path.and_then(|path| places.get(path)) else { continue };
+            let Some(instance) = self.instances_below(*now).next() else { continue };
+            let feature = match picked.feature {
+                None => None,
+                Some(feature) => {
+                    let Some(entity) = before.part_of(picked.instance).and_then(|p| entity_of(p, feature))
+                    else {
+                        continue;
+                    };
+                    let Some((part, feature)) = self.entities.get(&entity) else { continue };
+                    if *part != self.renderer.scene().instances[instance].part {
+                        continue;
+                    }
+                    Some(*feature)
+                }
+            };
+            self.select(Some(Picked { instance, feature, place: None }), true);
+        }
+    }
+
+    /// By node: names from the root on, and which of several of a name.
+    fn paths(&self) -> Vec<(Vec<(String, usize)>, usize)> {
+        let mut out = Vec::new();
+        let mut stack: Vec<(Vec<(String, usize)>, usize)> = self.named(&self.model.roots, &[]);
+        while let Some((path, node)) = stack.pop() {
+            stack.extend(self.named(&self.model.nodes[node].children, &path));
+            out.push((path, node));
+        }
+        out
+    }
+
+    fn named(&self, nodes: &[usize], above: &[(String, usize)]) -> Vec<(Vec<(String, usize)>, usize)> {
+        let mut counts: HashMap<&str, usize> = HashMap::new();
+        nodes
+            .iter()
+            .map(|&node| {
+                let own = &self.model.nodes[node];
+                let name = own.instance_name.as_deref().unwrap_or(own.name.as_str());
+                let count = counts.entry(name).or_default();
+                *count += 1;
+                let mut path = above.to_vec();
+                path.push((name.to_owned(), *count));
+                (path, node)
+            })
+            .collect()
+    }
+
+    /// Shows in the heat map what is shown, where it is shown.
+    pub fn arrange_deviation(&mut self) {
+        let Some(deviation) = &mut self.deviation else { return };
+        if deviation.arrangement == Some(self.arrangement) {
+            return;
+        }
+        deviation.arrangement = Some(self.arrangement);
+        for (k, instance) in self.renderer.scene().instances.iter().enumerate().take(self.homes.len()) {
+            deviation.renderer.show(k, instance.is_shown);
+            let moved = self.apart.get(k).map_or(DVec3::ZERO, |way| *way * self.explosion);
+            deviation.renderer.place(k, DAffine3::from_translation(moved));
+        }
     }
 
     /// The instances at or below a node.
@@ -409,12 +548,23 @@ impl Document {
         let mut out = Vec::new();
         let mut say = |name: &str, value: String| out.push((name.to_owned(), value));
         let Some(picked) = self.selection.last() else { return out };
-        if self.selection.len() > 2 {
-            say("selected", self.selection.len().to_string());
+        let are_features = self.selection.iter().all(|own| own.feature.is_some());
+        if self.selection.len() == 2 && are_features {
+            self.measure.facts().into_iter().for_each(|(name, value)| say(&name, value));
             return out;
         }
-        if self.selection.len() == 2 {
-            self.measure.facts().into_iter().for_each(|(name, value)| say(&name, value));
+        if self.selection.len() > 1 {
+            if let Some(node) = self.node {
+                say("node", self.model.nodes[node].name.clone());
+            }
+            say(if are_features { "selected" } else { "parts" }, self.selection.len().to_string());
+            let wholes = self.selection.iter().filter(|own| own.feature.is_none());
+            let points: Vec<DVec3> =
+                wholes.flat_map(|own| self.outline(Some(own.instance..own.instance + 1))).collect();
+            let bounds = Aabb::from_points(points);
+            if !bounds.is_empty() {
+                say("box", size_of_box(bounds));
+            }
             return out;
         }
         let Some(part) = self.part_of(picked.instance) else { return out };
@@ -434,8 +584,7 @@ impl Document {
                 let size =
                     self.renderer.scene().parts[self.renderer.scene().instances[picked.instance].part].bounds;
                 if !size.is_empty() {
-                    let d = size.max - size.min;
-                    say("box", format!("{:.4} x {:.4} x {:.4} mm", d.x, d.y, d.z));
+                    say("box", size_of_box(size));
                 }
             }
             Some(Feature::Face(face)) => {
@@ -487,5 +636,19 @@ fn surface_kind(face: &Face) -> String {
         FaceGeometry::Surface(surface) => surface.kind().to_owned(),
         FaceGeometry::Facets(_) => "triangles".to_owned(),
         FaceGeometry::Unreadable(reason) => format!("unreadable: {reason}"),
+    }
+}
+
+/// The sides of a box.
+fn size_of_box(bounds: Aabb) -> String {
+    let d = bounds.max - bounds.min;
+    format!("{} x {} x {} mm", number(d.x), number(d.y), number(d.z))
+}
+
+fn entity_of(part: &Part, feature: Feature) -> Option<EntityRef> {
+    match feature {
+        Feature::Face(face) => Some(part.faces.get(face as usize)?.entity),
+        Feature::Edge(edge) => Some(part.edges.get(edge as usize)?.entity),
+        Feature::Vertex(vertex) => Some(part.vertices.get(vertex as usize)?.entity),
     }
 }

@@ -100,6 +100,10 @@ fn load(
     wake: &(dyn Fn() + Send + Sync),
 ) -> Result<(), String> {
     let start = std::time::Instant::now();
+    // Pipes and devices may never end.
+    if std::fs::metadata(path).is_ok_and(|m| !m.is_file() && !m.is_dir()) {
+        return Err("it is no regular file".to_owned());
+    }
     let model = trimloop_import::read(path, &ImportOptions::default()).map_err(|error| error.to_string())?;
     if model.parts.iter().all(|part| part.faces.is_empty() && part.curves.is_empty()) {
         return Err("there is nothing in it that could be drawn".to_owned());

@@ -7,7 +7,7 @@ use trimloop_geom::Aabb;
 
 use crate::display::{Colors, Display, Mode, short};
 use crate::document::{Document, Picked};
-use crate::measure::number;
+use crate::measure::{number, vector};
 use crate::pick::Filter;
 use crate::section::Cuts;
 
@@ -104,7 +104,8 @@ pub(crate) fn section(ui: &mut Ui, cuts: &mut Cuts, bounds: Aabb, document: &Doc
         ui.checkbox(&mut cut.has_gizmo, "handles");
     });
     let [low, high] = cut.range(bounds);
-    let mut offset = cut.plane(bounds).offset_mm;
+    // Without the sign of nothing.
+    let mut offset = cut.plane(bounds).offset_mm + 0.0;
     if !(low < high) {
         return;
     }
@@ -115,7 +116,7 @@ pub(crate) fn section(ui: &mut Ui, cuts: &mut Cuts, bounds: Aabb, document: &Doc
             cut.offset_mm = Some(offset);
         }
         let n = cut.normal;
-        ui.label(RichText::new(format!("normal {:.3}, {:.3}, {:.3}", n.x, n.y, n.z)).weak().monospace());
+        ui.label(RichText::new(format!("normal {}", vector(n))).weak().monospace());
     });
     if document.caps.is_busy() {
         ui.horizontal(|ui| {
@@ -223,11 +224,12 @@ pub(crate) fn report(ui: &mut Ui, document: &Document) -> Option<Picked> {
     }
     if document.diagnostics.is_empty() {
         ui.label(RichText::new("Nothing was lost.").weak());
+        ui.allocate_space(ui.available_size());
         return None;
     }
     let mut chosen = None;
     let height = ui.text_style_height(&egui::TextStyle::Body);
-    let area = egui::ScrollArea::vertical().id_salt("report").auto_shrink([false, true]);
+    let area = egui::ScrollArea::vertical().id_salt("report").auto_shrink([false, false]);
     area.show_rows(ui, height, document.diagnostics.len(), |ui, range| {
         for diagnostic in &document.diagnostics[range] {
             let color = match diagnostic.severity {
@@ -235,7 +237,7 @@ pub(crate) fn report(ui: &mut Ui, document: &Document) -> Option<Picked> {
                 _ => ui.visuals().warn_fg_color,
             };
             let text = format!("{}: {}", diagnostic.entity, diagnostic.message);
-            let face = document.find_face(diagnostic.face.unwrap_or(diagnostic.entity));
+            let face = document.find(diagnostic.face.unwrap_or(diagnostic.entity));
             let label = egui::Label::new(RichText::new(&text).color(color)).truncate();
             let label = if face.is_some() { label.sense(egui::Sense::click()) } else { label };
             if ui.add(label).on_hover_text(text).clicked() {

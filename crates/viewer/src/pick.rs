@@ -101,6 +101,19 @@ pub(crate) fn under(
     Some(Picked { instance: pick.instance, feature: Some(Feature::Face(pick.face as u32)), place })
 }
 
+/// The place of the model at a place of the window.
+pub(crate) fn place_at(
+    document: &Document,
+    identified: &Identified,
+    frame: &Frame,
+    at: Pos2,
+) -> Option<glam::DVec3> {
+    let scene = document.renderer.scene();
+    let pixel = frame.pixel(at);
+    let pick = identified.at(scene, [pixel.x.floor() as i64, pixel.y.floor() as i64])?;
+    Some(Place::new(scene, &pick, frame.camera.ray(pixel, frame.size))?.point)
+}
+
 /// Faces of the model that are seen within `reach` pixels.
 fn faces_near(document: &Document, identified: &Identified, pixel: DVec2, reach: f64) -> Vec<(usize, u32)> {
     let mut out = Vec::new();

@@ -114,13 +114,14 @@ impl Tree {
     pub fn show(&mut self, ui: &mut Ui, document: &mut Document) -> Vec<TreeAction> {
         let mut actions = Vec::new();
         let row_height = ui.spacing().interact_size.y;
-        let reveal = document.reveal.take().and_then(|node| self.reveal(document, node));
+        let reveal = document.wanted_row.take().and_then(|node| self.reveal(document, node));
         self.update(document);
         if self.rows.is_empty() {
             ui.label(RichText::new("Nothing has such a name.").weak());
             return actions;
         }
-        let selected: HashSet<usize> = document.selected_nodes().into_iter().collect();
+        let mut selected: HashSet<usize> = document.selected_nodes().into_iter().collect();
+        selected.extend(document.node);
         let mut area = egui::ScrollArea::both().id_salt("tree").auto_shrink([false, false]);
         if let Some(row) = reveal {
             let whole = row_height + ui.spacing().item_spacing.y;

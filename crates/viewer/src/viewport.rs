@@ -7,7 +7,7 @@ use egui_wgpu::RenderState;
 use glam::{DVec2, DVec3};
 use trimloop_geom::Aabb;
 use trimloop_measure::Feature;
-use trimloop_render::{FrameStatistics, Identified, Look, Pending, RenderError};
+use trimloop_render::{FrameStatistics, Identified, Look, MOST_SECTIONS, Pending, RenderError, Section};
 
 use crate::document::{Document, Picked};
 use crate::measure::Measured;
@@ -29,6 +29,8 @@ pub(crate) struct Viewport {
     handle: Option<Handle>,
     /// Whether it was two fingers that scrolled last, not a wheel.
     is_touchpad: bool,
+    /// Where the mouse is while it zooms, when last, and the place of the model there.
+    zoom: Option<(Pos2, Instant, Option<DVec3>)>,
     /// What the pixels show.
     seen: Seen,
     pub hovered: Option<Picked>,
@@ -92,6 +94,9 @@ pub(crate) struct Outcome {
     pub error: Option<RenderError>,
 }
 
+/// The mouse may move so far, points, and rest so long while it zooms to one place.
+const ZOOM_REACH: f32 = 4.0;
+const ZOOM_LASTS: Duration = Duration::from_millis(1500);
 /// What one notch of the wheel is worth.
 const ZOOM_PER_POINT: f64 = 0.0025;
 /// What the mouse may hover over is found out when the view is at rest for so long.
@@ -102,6 +107,8 @@ const BUDGET: Duration = Duration::from_millis(25);
 const SOFTWARE_BUDGET: Duration = Duration::from_millis(200);
 /// While parts arrive, the picture is drawn no more often than this.
 const PATIENCE_S: f64 = 0.15;
+
+type Sections = [Option<Section>; MOST_SECTIONS];
 
 const HOVERED: Color32 = Color32::from_rgb(20, 120, 230);
 const SELECTED: Color32 = Color32::from_rgb(240, 110, 20);
@@ -119,7 +126,7 @@ impl Viewport {
         let hovered_handle =
             response.hover_pos().and_then(|at| section::handle_at(cuts.active(), bounds, &before, at));
         if !self.hold_gizmo(ui, &response, cuts.active_mut(), bounds, &before, hovered_handle) {
-            self.navigate(ui, &response, view, controls, &mut outcome);
+            self.navigate(ui, &response, document, view, controls, &mut outcome);
         }
         let frame = Frame { camera: view.camera(), size, rect };
         self.frame = Some(frame);
@@ -157,7 +164,7 @@ impl Viewport {
             Ok(None) => {}
             Err(error) => outcome.error = Some(error),
         }
-        self.overlay(ui, document, &frame);
+        self.overlay(ui, document, &frame, &look.sections);
         if !bounds.is_empty() {
             section::show_gizmo(ui, cuts, bounds, &frame, self.handle.or(hovered_handle));
         }
@@ -332,14 +339,14 @@ impl Viewport {
     }
 
     /// What lies over the picture: what is hovered over, selected edges and vertices, measures.
-    fn overlay(&self, ui: &Ui, document: &mut Document, frame: &Frame) {
+    fn overlay(&self, ui: &Ui, document: &mut Document, frame: &Frame, sections: &Sections) {
         for picked in document.selection.clone() {
             if matches!(picked.feature, Some(Feature::Edge(_) | Feature::Vertex(_))) {
-                show_feature(ui, document, frame, &picked, SELECTED);
+                show_feature(ui, document, frame, &picked, (SELECTED, sections));
             }
         }
         if let Some(hovered) = self.hovered {
-            show_feature(ui, document, frame, &hovered, HOVERED);
+            show_feature(ui, document, frame, &hovered, (HOVERED, sections));
         }
         for kept in &document.measure.kept {
             show_measure(ui, document, frame, kept, KEPT);
@@ -379,6 +386,7 @@ impl Viewport {
         &mut self,
         ui: &Ui,
         response: &Response,
+        document: &mut Document,
         view: &mut Navigation,
         controls: Controls,
         outcome: &mut Outcome,
@@ -433,9 +441,38 @@ impl Viewport {
         if (zoom - 1.0).abs() > 1e-9
             && let Some(at) = ui.input(|input| input.pointer.hover_pos())
         {
-            let off = at - middle;
-            view.zoom(zoom, DVec2::new(f64::from(off.x), f64::from(off.y)), height);
+            match self.zoomed_at(document, at) {
+                (is_first, Some(point)) => {
+                    outcome.began = outcome.began.or(is_first.then_some(before));
+                    view.zoom_to(point, zoom);
+                }
+                (is_first, None) => {
+                    outcome.began = outcome.began.or(is_first.then_some(before));
+                    let off = at - middle;
+                    view.zoom(zoom, DVec2::new(f64::from(off.x), f64::from(off.y)), height);
+                }
+            }
         }
+    }
+}
+
+impl Viewport {
+    /// The place of the model under the mouse when zooming began, and whether it begins now.
+    fn zoomed_at(&mut self, document: &Document, at: Pos2) -> (bool, Option<DVec3>) {
+        let now = Instant::now();
+        if let Some((place, last, point)) = self.zoom
+            && place.distance(at) < ZOOM_REACH
+            && now - last < ZOOM_LASTS
+        {
+            self.zoom = Some((place, now, point));
+            return (false, point);
+        }
+        let point = match (&self.seen, self.frame) {
+            (Seen::Known(identified), Some(frame)) => pick::place_at(document, identified, &frame, at),
+            _ => None,
+        };
+        self.zoom = Some((at, now, point));
+        (true, point)
     }
 }
 
@@ -450,7 +487,14 @@ fn is_of_touchpad(event: &egui::Event) -> bool {
 }
 
 /// Draws the outline of something over the picture.
-fn show_feature(ui: &Ui, document: &mut Document, frame: &Frame, picked: &Picked, color: Color32) {
+fn show_feature(
+    ui: &Ui,
+    document: &mut Document,
+    frame: &Frame,
+    picked: &Picked,
+    (color, sections): (Color32, &Sections),
+) {
+    let is_cut_away = |p: &DVec3| sections.iter().flatten().any(|s| s.normal.dot(*p) > s.offset_mm);
     let painter = ui.painter().with_clip_rect(frame.rect);
     let edges = match picked.feature {
         Some(Feature::Face(face)) => document.edges_of(picked.instance, face),
@@ -467,7 +511,8 @@ fn show_feature(ui: &Ui, document: &mut Document, frame: &Frame, picked: &Picked
     for edge in edges {
         let line = document.line(picked.instance, edge);
         let mut run: Vec<Pos2> = Vec::new();
-        for at in line.iter().map(|p| frame.at(*p)).chain([None]) {
+        let seen = |p: &DVec3| if is_cut_away(p) { None } else { frame.at(*p) };
+        for at in line.iter().map(seen).chain([None]) {
             match at {
                 Some(at) => run.push(at),
                 // Behind the eye, or at the end.

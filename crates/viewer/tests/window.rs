@@ -429,3 +429,95 @@ fn settings_and_recent_files_are_kept() {
     let next = Harness::builder().with_size([800.0, 600.0]).wgpu().build_eframe(build);
     assert!(!next.state().view().is_parallel);
 }
+
+#[test]
+fn every_file_has_its_own_view_and_stays_in_front_when_others_go() {
+    let files = ["cadquery/box.step", "cadquery/sphere.step", "cadquery/torus.step"].map(fixture);
+    let Some(mut harness) = window(files.to_vec()) else { return };
+    let names = harness.state().open_files();
+    harness.get_by_label(&names[1]).click();
+    harness.run_steps(3);
+    press(&mut harness, egui::Key::Num1);
+    let front = harness.state().view();
+    harness.get_by_label(&names[2]).click();
+    harness.run_steps(3);
+    assert!(harness.state().view() != front);
+    harness.get_by_label(&names[1]).click();
+    harness.run_steps(3);
+    assert_eq!(harness.state().view(), front);
+    // The first one is closed with the middle button: the second stays in front.
+    let at = harness.get_by_label(&names[0]).rect().center();
+    harness.hover_at(at);
+    harness.step();
+    for pressed in [true, false] {
+        let button = egui::PointerButton::Middle;
+        let modifiers = egui::Modifiers::NONE;
+        harness.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+        harness.step();
+    }
+    harness.run_steps(3);
+    assert_eq!(harness.state().open_files(), names[1..]);
+    assert_eq!(harness.state().view(), front);
+    // What is open already is not opened twice.
+    harness.state_mut().open(fixture("cadquery/sphere.step"));
+    settle(&mut harness);
+    assert_eq!(harness.state().open_files().len(), 2);
+}
+
+#[test]
+fn the_wheel_goes_to_the_place_under_the_mouse_and_never_past_it() {
+    let Some(mut harness) = window(vec![fixture("cadquery/box.step")]) else { return };
+    let size = box_of(&harness);
+    let corner = DVec3::new(size[1].x, size[0].y, size[1].z);
+    // A place of the upper face, near the corner that is nearest to the eye.
+    let place = corner + DVec3::new(-0.5, 0.5, 0.0);
+    let at = harness.state().place_of(place).expect("in the picture");
+    harness.hover_at(at);
+    harness.step();
+    for _ in 0..40 {
+        harness.event(egui::Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Line,
+            delta: egui::Vec2::new(0.0, 2.0),
+            phase: egui::TouchPhase::Move,
+            source: egui::MouseWheelSource::Wheel,
+            modifiers: egui::Modifiers::NONE,
+        });
+        harness.run_steps(2);
+    }
+    harness.run_steps(10);
+    settle(&mut harness);
+    let view = harness.state().view();
+    assert!(view.distance_mm < 1.0, "{}", view.distance_mm);
+    let now = harness.state().place_of(place).expect("in front of the eye");
+    assert!(now.distance(at) < 3.0, "{at} {now}");
+    click(&mut harness, at);
+    assert_eq!(fact(harness.state(), "surface").as_deref(), Some("plane"));
+    // And back, in one step.
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    harness.run_steps(3);
+    assert!(harness.state().view().distance_mm > 10.0);
+}
+
+#[test]
+fn what_is_hidden_stays_hidden_when_the_file_is_written_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("part.step");
+    std::fs::copy(fixture(ASSEMBLY), &path).expect("copied");
+    let Some(mut harness) = window(vec![path.clone()]) else { return };
+    let outside = egui::Pos2::new(10.0, 690.0);
+    click(&mut harness, MIDDLE);
+    press(&mut harness, egui::Key::H);
+    press(&mut harness, egui::Key::Escape);
+    harness.hover_at(outside);
+    harness.run_steps(2);
+    let before = pixels(&mut harness);
+    std::thread::sleep(Duration::from_millis(300));
+    std::fs::copy(fixture(ASSEMBLY), &path).expect("copied");
+    for _ in 0..30 {
+        std::thread::sleep(Duration::from_millis(50));
+        harness.step();
+    }
+    settle(&mut harness);
+    harness.run_steps(3);
+    assert!(before == pixels(&mut harness));
+}

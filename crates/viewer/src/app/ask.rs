@@ -22,6 +22,8 @@ pub(super) enum Wanted {
 #[derive(Debug)]
 pub(super) struct Asking {
     wanted: Wanted,
+    /// The document that it is about.
+    document: Option<u64>,
     suggested: PathBuf,
     since: Instant,
     job: Job<Vec<PathBuf>>,
@@ -31,6 +33,7 @@ pub(super) struct Asking {
 #[derive(Debug)]
 pub(super) struct Typing {
     wanted: Wanted,
+    document: Option<u64>,
     text: String,
     is_new: bool,
 }
@@ -98,7 +101,8 @@ impl App {
             true => Job::done(wanted.show(&for_dialog)),
             false => Job::start(&self.context, move || wanted.show(&for_dialog)),
         };
-        self.asking = Some(Asking { wanted, suggested, since: Instant::now(), job });
+        let document = self.documents.get(self.active).map(|document| document.id);
+        self.asking = Some(Asking { wanted, document, suggested, since: Instant::now(), job });
     }
 
     /// Takes over what was chosen.
@@ -112,20 +116,35 @@ impl App {
         let Some(asking) = self.asking.take() else { return };
         if paths.is_empty() && asking.since.elapsed() < AT_ONCE {
             let text = asking.suggested.display().to_string();
-            self.typing = Some(Typing { wanted: asking.wanted, text, is_new: true });
+            let Asking { wanted, document, .. } = asking;
+            self.typing = Some(Typing { wanted, document, text, is_new: true });
         }
-        paths.into_iter().for_each(|path| self.answer(asking.wanted, path));
+        self.answer(asking.wanted, asking.document, paths);
     }
 
-    fn answer(&mut self, wanted: Wanted, path: PathBuf) {
+    fn answer(&mut self, wanted: Wanted, document: Option<u64>, paths: Vec<PathBuf>) {
+        if wanted == Wanted::Open {
+            self.open_all(paths);
+            return;
+        }
+        let Some(path) = paths.into_iter().next() else { return };
+        // The one that it was about when somebody asked, which may not be in front any more.
+        let Some(index) = self.documents.iter().position(|own| Some(own.id) == document) else { return };
+        if index != self.active {
+            self.activate(index);
+        }
+        let with_ending = |ending: &str| match path.extension() {
+            Some(_) => path.clone(),
+            None => path.with_extension(ending),
+        };
         match wanted {
-            Wanted::Open => self.open(path),
+            Wanted::Open => {}
             Wanted::Reference => self.compare_with(path),
-            Wanted::Export => self.export_to(path),
+            Wanted::Export => self.export_to(with_ending("glb")),
             Wanted::Picture => {
                 let height = 1440;
                 let width = (f64::from(height) * self.aspect).round().clamp(1.0, 8192.0);
-                self.picture_to(&path, [width as u32, height]);
+                self.picture_to(&with_ending("png"), [width as u32, height]);
             }
         }
     }
@@ -150,8 +169,8 @@ impl App {
         });
         if is_done || is_over {
             let typing = self.typing.take();
-            if let Some(Typing { wanted, text, .. }) = typing.filter(|_| is_done) {
-                self.answer(wanted, PathBuf::from(text.trim()));
+            if let Some(Typing { wanted, document, text, .. }) = typing.filter(|_| is_done) {
+                self.answer(wanted, document, vec![PathBuf::from(text.trim())]);
             }
         }
     }

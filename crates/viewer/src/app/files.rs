@@ -19,16 +19,16 @@ impl App {
 
     pub(super) fn compare_with_of(&mut self, index: usize, reference: PathBuf) {
         let Some(document) = self.documents.get(index) else { return };
-        let model = document.model.clone();
+        let (model, path) = (document.model.clone(), reference.clone());
         let work = move || {
             deviation::measure(&model, &reference)
                 .map_err(|reason| format!("cannot compare with {}: {reason}", reference.display()))
         };
-        self.comparing = Some((document.id, Job::start(&self.context, work)));
+        self.comparing = Some((document.id, path, Job::start(&self.context, work)));
     }
 
     pub(super) fn receive_comparison(&mut self) {
-        let Some((id, job)) = &self.comparing else { return };
+        let Some((id, _, job)) = &self.comparing else { return };
         let (id, polled) = (*id, job.poll());
         let found = match polled {
             Polled::Waiting => return,
@@ -47,7 +47,7 @@ impl App {
                     self.display.colors = display::Colors::Deviation;
                 }
             }
-            Err(reason) => self.messages.push(reason),
+            Err(reason) => self.complain(reason),
         }
     }
 
@@ -55,6 +55,11 @@ impl App {
     pub fn export_to(&mut self, path: PathBuf) {
         let Some(document) = self.documents.get(self.active) else { return };
         let options = self.settings.export.clone();
+        let is_any = document.renderer.scene().instances.iter().any(|i| i.is_shown && i.node.is_some());
+        if options.is_shown_only && !is_any {
+            self.complain("nothing is shown that could be exported".to_owned());
+            return;
+        }
         let is_shown: Vec<bool> = (0..document.model.nodes.len())
             .map(|node| !options.is_shown_only || document.is_shown(node))
             .collect();
@@ -67,10 +72,10 @@ impl App {
         let Some(exporting) = &self.exporting else { return };
         match exporting.job.poll() {
             Polled::Waiting => return,
-            Polled::Done(Ok(note)) => self.notes.push(note),
+            Polled::Done(Ok(note)) => self.note(note),
             Polled::Done(Err(_)) if exporting.is_cancelled() => {}
-            Polled::Done(Err(reason)) => self.messages.push(reason),
-            Polled::Failed => self.messages.push("the export failed; please report it".to_owned()),
+            Polled::Done(Err(reason)) => self.complain(reason),
+            Polled::Failed => self.complain("the export failed; please report it".to_owned()),
         }
         self.exporting = None;
     }
@@ -93,8 +98,8 @@ impl App {
         let made = self.picture(size).and_then(|picture| picture.to_png().map_err(|e| e.to_string()));
         let written = made.and_then(|png| whole_file(path, |out| out.write_all(&png)));
         match written {
-            Ok(()) => self.notes.push(format!("wrote {}", path.display())),
-            Err(error) => self.messages.push(format!("cannot save {}: {error}", path.display())),
+            Ok(()) => self.note(format!("wrote {}", path.display())),
+            Err(error) => self.complain(format!("cannot save {}: {error}", path.display())),
         }
     }
 
@@ -107,9 +112,9 @@ impl App {
             Ok(picture) => {
                 let size = [picture.width as usize, picture.height as usize];
                 self.context.copy_image(egui::ColorImage::from_rgba_unmultiplied(size, &picture.rgba));
-                self.notes.push("the picture is in the clipboard".to_owned());
+                self.note("the picture is in the clipboard".to_owned());
             }
-            Err(error) => self.messages.push(error),
+            Err(error) => self.complain(error),
         }
     }
 }

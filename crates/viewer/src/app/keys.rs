@@ -1,8 +1,10 @@
 //! What keys do.
 
+use egui::text_selection::LabelSelectionState;
 use egui::{Key, KeyboardShortcut, Modifiers, Ui};
 use trimloop_render::Direction;
 
+use crate::navigation::Navigation;
 use crate::panels::Tab;
 
 use super::ask::Wanted;
@@ -12,7 +14,7 @@ use super::{App, SIDES};
 const KEYS: [(&str, &str); 21] = [
     ("Ctrl+O", "open files"),
     ("F", "fit everything"),
-    ("Space", "fit the selection"),
+    ("Space", "look at the selection"),
     ("1 – 6", "front, back, left, right, top, bottom"),
     ("0", "isometric"),
     ("P", "perspective or parallel"),
@@ -30,7 +32,7 @@ const KEYS: [(&str, &str); 21] = [
     ("F5", "read the file again"),
     ("Ctrl+S, Ctrl+C", "save or copy a picture"),
     ("Ctrl+E", "export to glTF"),
-    ("Ctrl+W", "close the file"),
+    ("Ctrl+W, Ctrl+Tab", "close the file, go to the next one"),
 ];
 
 impl App {
@@ -49,11 +51,20 @@ impl App {
             self.ask(Wanted::Picture);
         }
         // Windows make an event of their own of this key.
-        if ui.input(|input| input.events.iter().any(|event| matches!(event, egui::Event::Copy))) {
+        let is_copy = ui.input(|input| input.events.iter().any(|event| matches!(event, egui::Event::Copy)));
+        let has_text = ui.ctx().plugin::<LabelSelectionState>().lock().has_selection();
+        if is_copy && !has_text {
             self.copy_picture();
         }
         if hit(Modifiers::COMMAND, Key::E) {
             self.is_export_open ^= true;
+        }
+        let count = self.documents.len();
+        if count > 1 && hit(Modifiers::CTRL, Key::Tab) {
+            self.activate((self.active + 1) % count);
+        }
+        if count > 1 && hit(Modifiers::CTRL | Modifiers::SHIFT, Key::Tab) {
+            self.activate((self.active + count - 1) % count);
         }
         if hit(Modifiers::COMMAND, Key::W) {
             self.close(self.active);
@@ -62,13 +73,13 @@ impl App {
             && let Some(view) = self.past.pop()
         {
             self.future.push(self.view);
-            self.view = view;
+            self.view = Navigation { up: self.look.up, ..view };
         }
         if hit(Modifiers::COMMAND, Key::Y)
             && let Some(view) = self.future.pop()
         {
             self.past.push(self.view);
-            self.view = view;
+            self.view = Navigation { up: self.look.up, ..view };
         }
         for (name, key) in SIDES {
             if plain(key)
@@ -115,14 +126,17 @@ impl App {
             document.measure.keep();
         }
         if plain(Key::Escape) {
-            document.select(None, false);
+            match self.is_help_open || self.is_export_open {
+                true => (self.is_help_open, self.is_export_open) = (false, false),
+                false => document.select(None, false),
+            }
         }
         if plain(Key::F5) {
             let path = document.path.clone();
-            self.start(path, true);
+            self.start(path, true, false);
         }
-        if plain(Key::Space) && !nodes.is_empty() {
-            self.fit(Some(&nodes));
+        if plain(Key::Space) {
+            self.fit_selection();
         }
     }
 

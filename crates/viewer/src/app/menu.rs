@@ -11,6 +11,10 @@ use crate::panels::Tab;
 use super::ask::Wanted;
 use super::{App, Load, SIDES};
 
+/// How long it is told what went well.
+const NOTE_LASTS: std::time::Duration = std::time::Duration::from_secs(6);
+/// Letters of a name in a tab.
+const MOST_LETTERS: usize = 28;
 /// The height of messages, points.
 const MOST_NOTICES: f32 = 120.0;
 
@@ -76,22 +80,40 @@ impl App {
                     ui.close();
                     self.is_help_open = true;
                 }
-                egui::widgets::global_theme_preference_buttons(ui);
+                let mut theme = ui.ctx().options(|options| options.theme_preference);
+                let before = theme;
+                for (own, name) in [
+                    (egui::ThemePreference::System, "Colours of the system"),
+                    (egui::ThemePreference::Light, "Light"),
+                    (egui::ThemePreference::Dark, "Dark"),
+                ] {
+                    ui.radio_value(&mut theme, own, name);
+                }
+                if theme != before {
+                    ui.ctx().set_theme(theme);
+                }
                 ui.label(RichText::new(format!("drawn by {}", self.gpu.name())).weak());
             });
             ui.separator();
             let mut closed = None;
-            for (index, document) in self.documents.iter().enumerate() {
-                let tab = ui
-                    .selectable_label(index == self.active, document.name())
-                    .on_hover_text(document.path.display().to_string());
-                if tab.clicked() && index != self.active {
-                    closed = Some((index, false));
+            egui::ScrollArea::horizontal().id_salt("files").show(ui, |ui| {
+                for (index, document) in self.documents.iter().enumerate() {
+                    let name = shortened(&document.name());
+                    let tab = ui
+                        .selectable_label(index == self.active, name)
+                        .on_hover_text(format!("{} (middle click closes)", document.path.display()));
+                    if index == self.active && self.told_active != self.shown {
+                        tab.scroll_to_me(None);
+                    }
+                    if tab.clicked() && index != self.active {
+                        closed = Some((index, false));
+                    }
+                    if tab.middle_clicked() {
+                        closed = Some((index, true));
+                    }
                 }
-                if tab.middle_clicked() {
-                    closed = Some((index, true));
-                }
-            }
+            });
+            self.told_active = self.shown;
             match closed {
                 Some((index, true)) => self.close(index),
                 Some((index, false)) => self.activate(index),
@@ -150,7 +172,32 @@ impl App {
     }
 
     /// What is being done, and what came of it.
-    pub(super) fn notices(&mut self, ui: &mut Ui) {
+    pub(super) fn notices(&mut self, ui: &Ui) {
+        if let Some(noted) = self.noted {
+            // What went well needs not be told for ever.
+            match NOTE_LASTS.checked_sub(noted.elapsed()) {
+                Some(rest) => ui.ctx().request_repaint_after(rest),
+                None => {
+                    self.notes.clear();
+                    self.noted = None;
+                }
+            }
+        }
+        if !self.has_notices() {
+            return;
+        }
+        // Over the picture: nothing moves when messages come and go.
+        let place = ui.max_rect().left_bottom() + egui::vec2(10.0, -10.0);
+        let area = egui::Area::new(egui::Id::unique("notices")).pivot(egui::Align2::LEFT_BOTTOM);
+        area.fixed_pos(place).show(ui.ctx(), |ui| {
+            egui::Frame::popup(ui.style()).show(ui, |ui| {
+                ui.set_max_width(640.0);
+                self.notices_within(ui);
+            });
+        });
+    }
+
+    fn notices_within(&mut self, ui: &mut Ui) {
         for Load { loading, .. } in &self.loading {
             ui.horizontal(|ui| {
                 let name = loading.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -260,4 +307,15 @@ impl App {
             self.ask(Wanted::Export);
         }
     }
+}
+
+/// The beginning and the end of a long name.
+fn shortened(name: &str) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    if letters.len() <= MOST_LETTERS {
+        return name.to_owned();
+    }
+    let half = MOST_LETTERS / 2;
+    let (first, last) = (&letters[..half], &letters[letters.len() - half + 1..]);
+    first.iter().chain(&['…']).chain(last).collect()
 }

@@ -12,10 +12,12 @@ use crate::loader::{Arrival, Loading, ReadyPart};
 use super::{App, Load};
 
 impl App {
-    pub(super) fn start(&mut self, path: PathBuf, is_reload: bool) {
+    pub(super) fn start(&mut self, path: PathBuf, is_reload: bool, is_front: bool) {
         let context = self.context.clone();
+        // From now on: it may change while it is being read.
+        self.watch.add(&path);
         let loading = Loading::start(path, is_reload, move || context.request_repaint());
-        self.loading.push(Load { loading, held: None });
+        self.loading.push(Load { loading, held: None, is_front });
     }
 
     /// Takes over what has been read, and reads again what changed.
@@ -23,21 +25,26 @@ impl App {
         let mut still = Vec::new();
         for mut load in std::mem::take(&mut self.loading) {
             if load.loading.is_cancelled() {
-                self.documents.retain(|own| Some(own.id) != load.loading.document);
-                self.active = self.active.min(self.documents.len().saturating_sub(1));
-                continue;
-            }
-            if self.receive_of(&mut load) {
+                self.drop_document(load.loading.document);
+            } else if self.receive_of(&mut load) {
                 still.push(load);
             }
         }
         still.append(&mut self.loading);
         self.loading = still;
-        let paths: Vec<PathBuf> = self.documents.iter().map(|d| d.path.clone()).collect();
+        let open = self.documents.iter().map(|document| document.path.clone());
+        let paths: Vec<PathBuf> =
+            open.chain(self.loading.iter().map(|load| load.loading.path.clone())).collect();
         let (changed, is_pending) = self.watch.changed(&paths);
-        for path in changed {
-            if !self.loading.iter().any(|own| own.loading.path == path) {
-                self.start(path, true);
+        self.changed.extend(changed);
+        // What changes while it is read is read once more, afterwards.
+        let is_read = |own: &PathBuf| self.loading.iter().any(|load| load.loading.path == *own);
+        let (later, now): (Vec<PathBuf>, Vec<PathBuf>) =
+            std::mem::take(&mut self.changed).into_iter().partition(is_read);
+        self.changed = later;
+        for path in now {
+            if self.documents.iter().any(|document| document.path == path) {
+                self.start(path, true, false);
             }
         }
         if is_pending || !self.loading.is_empty() || self.exporting.is_some() {
@@ -95,10 +102,9 @@ impl App {
         true
     }
 
-    pub(super) fn fail(&mut self, load: &Load, reason: &str) {
-        self.messages.push(format!("{}: {reason}", load.loading.path.display()));
-        self.documents.retain(|own| Some(own.id) != load.loading.document);
-        self.active = self.active.min(self.documents.len().saturating_sub(1));
+    fn fail(&mut self, load: &Load, reason: &str) {
+        self.complain(format!("{}: {reason}", load.loading.path.display()));
+        self.drop_document(load.loading.document);
     }
 
     /// A file's model is there: its tree can be shown, its parts are to come.
@@ -107,10 +113,11 @@ impl App {
         let document = Document::new(&self.gpu, self.next_id, path.clone(), model)?;
         load.loading.document = Some(self.next_id);
         self.next_id += 1;
-        self.watch.add(&path);
         self.settings.remember(&path);
         self.documents.push(document);
-        self.activate(self.documents.len() - 1);
+        if load.is_front || self.documents.len() == 1 {
+            self.activate(self.documents.len() - 1);
+        }
         Ok(())
     }
 
@@ -125,7 +132,9 @@ impl App {
             let wanted = load.loading.document;
             if let Some(place) = self.documents.iter().position(|own| Some(own.id) == wanted) {
                 self.documents[place].finish(seconds);
-                if let Some(reference) = self.reference.take() {
+                if let Some((_, reference)) =
+                    self.reference.take_if(|(file, _)| *file == self.documents[place].path)
+                {
                     self.compare_with_of(place, reference);
                 }
                 // What is there now may reach farther than what the file's vertices told.
@@ -143,25 +152,21 @@ impl App {
             document.take(part)?;
         }
         document.finish(seconds);
-        // What was hidden stays hidden, where it can be told.
         let before = &self.documents[place];
-        let hidden: std::collections::HashSet<&str> = before
-            .renderer
-            .scene()
-            .instances
-            .iter()
-            .filter(|i| !i.is_shown)
-            .filter_map(|i| Some(before.model.nodes[i.node?].name.as_str()))
-            .collect();
-        for node in 0..document.model.nodes.len() {
-            let own = &document.model.nodes[node];
-            if own.part.is_some() && !own.name.is_empty() && hidden.contains(own.name.as_str()) {
-                document.show(node, false);
-            }
+        document.take_over(before);
+        let compared = self.comparing.take_if(|(id, ..)| *id == before.id).map(|(_, reference, _)| reference);
+        let reference = compared.or_else(|| before.deviation.as_ref().map(|own| own.reference.clone()));
+        if self.shown == Some(before.id) {
+            self.shown = Some(document.id);
         }
-        document.explode(before.explosion());
         self.documents[place] = document;
         self.tree.reset();
+        if let Some(reference) = reference {
+            self.compare_with_of(place, reference);
+        }
+        // It is well again.
+        let name = path.display().to_string();
+        self.messages.retain(|message| !message.starts_with(&name));
         Ok(())
     }
 }
