@@ -607,6 +607,16 @@ impl App {
             let part = document.renderer.scene().instances.get(picked.instance)?.part;
             Some(Subject { picked: *picked, part, transform: document.item(picked)?.transform, feature })
         };
+        let whole = |picked: &Picked| {
+            let part = document.renderer.scene().instances.get(picked.instance)?.part;
+            picked.feature.is_none().then_some((picked.instance, part, document.home(picked.instance)?))
+        };
+        let wholes: Option<Vec<_>> = document.selection.iter().map(whole).collect();
+        if let Some(wholes) = wholes.filter(|wholes| !wholes.is_empty()) {
+            let model = document.model.clone();
+            document.measure.want_wholes(&self.context, &model, wholes);
+            return;
+        }
         let subjects: Option<Vec<Subject>> = document.selection.iter().map(subject).collect();
         let subjects = subjects.filter(|subjects| subjects.len() <= 2).unwrap_or_default();
         let model = document.model.clone();

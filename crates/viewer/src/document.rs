@@ -446,6 +446,11 @@ impl Document {
         Some(Item { part, transform: *self.homes.get(picked.instance)?, feature: picked.feature? })
     }
 
+    /// Where an instance stands in the model.
+    pub fn home(&self, instance: usize) -> Option<DAffine3> {
+        self.homes.get(instance).copied()
+    }
+
     /// How far an instance is from its place in the model.
     pub fn moved(&self, instance: usize) -> DVec3 {
         self.apart.get(instance).map_or(DVec3::ZERO, |way| *way * self.explosion)
@@ -564,6 +569,9 @@ impl Document {
             let bounds = Aabb::from_points(points);
             if !bounds.is_empty() {
                 say("box", size_of_box(bounds));
+            }
+            if !are_features {
+                self.measure.facts().into_iter().for_each(|(name, value)| say(&name, value));
             }
             return out;
         }

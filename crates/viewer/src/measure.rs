@@ -1,10 +1,13 @@
 //! What is selected, measured: in the background, exactly, and kept where somebody wants to see it later.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
 use trimloop_brep::Model;
-use trimloop_measure::{Between, Facts, Feature, Item, between, facts};
+use trimloop_measure::{Between, Facts, Feature, Item, Whole, between, facts, whole};
+use trimloop_mesh::Silent;
 
 use crate::document::Picked;
 use crate::job::{Job, Polled};
@@ -26,12 +29,26 @@ pub(crate) struct Measured {
     pub facts: Option<Facts>,
     /// Of two.
     pub between: Option<Between>,
+    /// Of whole parts.
+    pub wholes: Option<Wholes>,
+}
+
+/// Whole parts together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Wholes {
+    pub area_mm2: f64,
+    /// None where one of them has no volume.
+    pub volume_mm3: Option<f64>,
+    /// Of the volume, or of the area.
+    pub center: DVec3,
 }
 
 /// The selection's measures, and those that are kept.
 #[derive(Debug, Default)]
 pub(crate) struct Measure {
     wanted: Vec<Subject>,
+    /// Instances that are measured as wholes.
+    wanted_wholes: Vec<usize>,
     job: Option<Job<Measured>>,
     pub found: Option<Measured>,
     pub kept: Vec<Measured>,
@@ -48,6 +65,7 @@ impl Measure {
         }
         self.found = None;
         self.job = None;
+        self.wanted_wholes.clear();
         self.wanted = subjects.clone();
         if subjects.is_empty() {
             return;
@@ -61,7 +79,29 @@ impl Measure {
                 [a, b] => (None, between(item(a), item(b))),
                 _ => (None, None),
             };
-            Measured { subjects, facts, between }
+            Measured { subjects, facts, between, wholes: None }
+        }));
+    }
+
+    /// Begins to measure whole parts, given by instance, part and place, unless that is done or on its way.
+    pub fn want_wholes(
+        &mut self,
+        context: &egui::Context,
+        model: &Arc<Model>,
+        wholes: Vec<(usize, usize, DAffine3)>,
+    ) {
+        if self.wanted_wholes.iter().eq(wholes.iter().map(|(instance, ..)| instance)) {
+            return;
+        }
+        self.found = None;
+        self.wanted.clear();
+        self.wanted_wholes = wholes.iter().map(|(instance, ..)| *instance).collect();
+        let model = model.clone();
+        self.job = Some(Job::start(context, move || Measured {
+            subjects: Vec::new(),
+            facts: None,
+            between: None,
+            wholes: Wholes::of(&model, &wholes),
         }));
     }
 
@@ -107,9 +147,56 @@ impl Measure {
     }
 }
 
+impl Wholes {
+    /// Each part is measured once, and again only where an instance changes its size.
+    fn of(model: &Model, wholes: &[(usize, usize, DAffine3)]) -> Option<Self> {
+        let mut parts: Vec<usize> = wholes.iter().map(|(_, part, _)| *part).collect();
+        parts.sort_unstable();
+        parts.dedup();
+        let alone: HashMap<usize, Option<Whole>> = parts
+            .into_par_iter()
+            .map(|part| (part, whole(&model.parts[part], DAffine3::IDENTITY, &Silent)))
+            .collect();
+        let (mut area, mut moment_of_area) = (0.0, DVec3::ZERO);
+        let (mut volume, mut moment_of_volume) = (Some(0.0), DVec3::ZERO);
+        for (_, part, transform) in wholes {
+            let m = transform.matrix3;
+            let is_rigid = (m.transpose() * m).abs_diff_eq(glam::DMat3::IDENTITY, 1e-9);
+            let own = match is_rigid {
+                true => alone
+                    .get(part)
+                    .copied()
+                    .flatten()
+                    .map(|own| Whole { center: transform.transform_point3(own.center), ..own }),
+                false => whole(&model.parts[*part], *transform, &Silent),
+            };
+            let Some(own) = own else { continue };
+            area += own.area_mm2;
+            moment_of_area += own.center * own.area_mm2;
+            volume = volume.zip(own.volume_mm3).map(|(a, b)| a + b);
+            moment_of_volume += own.center * own.volume_mm3.unwrap_or(0.0);
+        }
+        let center = match volume {
+            Some(volume) if volume > 0.0 => moment_of_volume / volume,
+            _ => moment_of_area / area,
+        };
+        (area > 0.0).then_some(Self { area_mm2: area, volume_mm3: volume, center })
+    }
+}
+
 impl Measured {
     /// Lines of a name and a value.
     pub fn lines(&self) -> Vec<(String, String)> {
+        if let Some(wholes) = &self.wholes {
+            let mut out = Vec::new();
+            if let Some(volume) = wholes.volume_mm3 {
+                out.push(("volume".to_owned(), format!("{} mm³", number(volume))));
+            }
+            out.push(("area".to_owned(), format!("{} mm²", number(wholes.area_mm2))));
+            let name = if wholes.volume_mm3.is_some() { "centre of gravity" } else { "centre of area" };
+            out.push((name.to_owned(), format!("{} mm", vector(wholes.center))));
+            return out;
+        }
         match (&self.facts, &self.between) {
             (Some(facts), _) => lines_of_facts(facts),
             (None, Some(between)) => lines_between(between),
@@ -121,6 +208,12 @@ impl Measured {
     pub fn label(&self) -> String {
         if let Some(between) = &self.between {
             return format!("{} mm", number(between.distance_mm));
+        }
+        if let Some(wholes) = &self.wholes {
+            return wholes.volume_mm3.map_or_else(
+                || format!("{} mm²", number(wholes.area_mm2)),
+                |v| format!("{} mm³", number(v)),
+            );
         }
         let Some(facts) = &self.facts else { return String::new() };
         if let Some(radius) = facts.radius_mm {

@@ -160,6 +160,15 @@ impl Navigation {
         };
     }
 
+    /// The same around a place of the model, which stays where it is seen.
+    pub(crate) fn turn_around(&mut self, by: DVec2, pivot: DVec3) {
+        let before = self.direction.axes(self.up);
+        self.turn(by);
+        let after = self.direction.axes(self.up);
+        let off = self.target - pivot;
+        self.target = pivot + (0..3).map(|k| after[k] * off.dot(before[k])).sum::<DVec3>();
+    }
+
     /// Millimetres of a point of a view of `height` points, at the target.
     fn point_mm(&self, height: f64) -> f64 {
         2.0 * (0.5 * FOV_Y_RAD).tan() * self.distance_mm / height.max(1.0)
@@ -230,6 +239,19 @@ mod tests {
             view.shift(DVec2::new(30.0, -20.0), 600.0);
             let moved = view.camera().project(view.target, SIZE).expect("in front");
             assert!(target.distance(moved) < 1e-6);
+        }
+    }
+
+    #[test]
+    fn the_place_that_is_turned_around_stays_where_it_is_seen() {
+        for is_parallel in [false, true] {
+            let mut view = Navigation { is_parallel, ..Navigation::new(Up::Z) };
+            view.fit(&cube(), 800.0 / 600.0);
+            let pivot = DVec3::new(10.0, 0.0, 10.0);
+            let before = view.camera().project(pivot, SIZE).expect("in front");
+            view.turn_around(DVec2::new(70.0, -40.0), pivot);
+            let after = view.camera().project(pivot, SIZE).expect("in front");
+            assert!(before.distance(after) < 1e-6, "{before} {after}");
         }
     }
 

@@ -29,6 +29,8 @@ pub(crate) struct Viewport {
     handle: Option<Handle>,
     /// Whether it was two fingers that scrolled last, not a wheel.
     is_touchpad: bool,
+    /// The place of the model that it turns around.
+    pivot: Option<DVec3>,
     /// Where the mouse is while it zooms, when last, and the place of the model there.
     zoom: Option<(Pos2, Instant, Option<DVec3>)>,
     /// What the pixels show.
@@ -404,12 +406,17 @@ impl Viewport {
             let drag = controls.style.drag(held);
             if drag.is_some() && self.drag.is_none() {
                 outcome.began = Some(before);
+                let at = ui.input(|input| input.pointer.press_origin());
+                self.pivot = at.and_then(|at| self.place_at(document, at));
             }
             self.drag = drag;
             let by = response.drag_delta();
             let by = DVec2::new(f64::from(by.x), f64::from(by.y));
             match drag {
-                Some(Drag::Turn) => view.turn(by),
+                Some(Drag::Turn) => match self.pivot {
+                    Some(pivot) => view.turn_around(by, pivot),
+                    None => view.turn(by),
+                },
                 Some(Drag::Move) => view.shift(by, height),
                 Some(Drag::Zoom) => view.zoom((0.01 * by.y).exp(), DVec2::ZERO, height),
                 None => {}
@@ -457,6 +464,14 @@ impl Viewport {
 }
 
 impl Viewport {
+    /// The place of the model at a place of the window, if that is known.
+    fn place_at(&self, document: &Document, at: Pos2) -> Option<DVec3> {
+        match (&self.seen, self.frame) {
+            (Seen::Known(identified), Some(frame)) => pick::place_at(document, identified, &frame, at),
+            _ => None,
+        }
+    }
+
     /// The place of the model under the mouse when zooming began, and whether it begins now.
     fn zoomed_at(&mut self, document: &Document, at: Pos2) -> (bool, Option<DVec3>) {
         let now = Instant::now();
@@ -467,10 +482,7 @@ impl Viewport {
             self.zoom = Some((place, now, point));
             return (false, point);
         }
-        let point = match (&self.seen, self.frame) {
-            (Seen::Known(identified), Some(frame)) => pick::place_at(document, identified, &frame, at),
-            _ => None,
-        };
+        let point = self.place_at(document, at);
         self.zoom = Some((at, now, point));
         (true, point)
     }

@@ -446,22 +446,27 @@ fn every_file_has_its_own_view_and_stays_in_front_when_others_go() {
     harness.run_steps(3);
     assert_eq!(harness.state().view(), front);
     // The first one is closed with the middle button: the second stays in front.
-    let at = harness.get_by_label(&names[0]).rect().center();
-    harness.hover_at(at);
-    harness.step();
-    for pressed in [true, false] {
-        let button = egui::PointerButton::Middle;
-        let modifiers = egui::Modifiers::NONE;
-        harness.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
-        harness.step();
-    }
-    harness.run_steps(3);
+    harness.get_by_label(&names[0]).click_button(egui::PointerButton::Middle);
+    harness.run_steps(4);
     assert_eq!(harness.state().open_files(), names[1..]);
     assert_eq!(harness.state().view(), front);
     // What is open already is not opened twice.
     harness.state_mut().open(fixture("cadquery/sphere.step"));
     settle(&mut harness);
     assert_eq!(harness.state().open_files().len(), 2);
+}
+
+#[test]
+fn parts_are_weighed() {
+    let Some(mut harness) = window(vec![fixture("cadquery/box.step")]) else { return };
+    let row = (egui::accesskit::Role::Button, "SOLID  (6 faces)");
+    harness.get_by_role_and_label(row.0, row.1).click();
+    harness.run_steps(3);
+    settle(&mut harness);
+    let size = box_of(&harness);
+    let extent = size[1] - size[0];
+    assert!((value(harness.state(), "volume") - extent.element_product()).abs() < 1e-5);
+    assert_eq!(fact(harness.state(), "centre of gravity").as_deref(), Some("0, 0, 0 mm"));
 }
 
 #[test]
