@@ -52,7 +52,7 @@ impl Scene {
         };
         let arguments = [PathBuf::from("view")].into_iter().chain(self.arguments.iter().map(place));
         let window = Window::open(program, arguments, SIZE)?;
-        window.settled()?;
+        window.started()?;
         (self.drive)(&window)?;
         window.settled()
     }

@@ -61,6 +61,7 @@ pub mod key {
 
 /// A picture that stays the same for so long is the one that was waited for.
 const REST: Duration = Duration::from_millis(900);
+const START_REST: Duration = Duration::from_millis(2500);
 /// Longer nothing is waited for.
 const PATIENCE: Duration = Duration::from_secs(60);
 /// The program is given so much time between what is done to it.
@@ -170,6 +171,18 @@ impl Window {
     /// # Errors
     /// Where that does not happen.
     pub fn settled(&self) -> anyhow::Result<Picture> {
+        self.at_rest_for(REST)
+    }
+
+    /// The same where much has to be made first, such as the device's programs at the start.
+    ///
+    /// # Errors
+    /// Where that does not happen.
+    pub fn started(&self) -> anyhow::Result<Picture> {
+        self.at_rest_for(START_REST)
+    }
+
+    fn at_rest_for(&self, rest: Duration) -> anyhow::Result<Picture> {
         let start = Instant::now();
         let mut last = self.photograph()?;
         let mut since = Instant::now();
@@ -178,7 +191,7 @@ impl Window {
             let own = self.photograph()?;
             if own != last {
                 (last, since) = (own, Instant::now());
-            } else if since.elapsed() > REST && !is_blank(&last) {
+            } else if since.elapsed() > rest && !is_blank(&last) {
                 return Ok(last);
             }
         }

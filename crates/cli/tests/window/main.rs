@@ -2,6 +2,7 @@
 
 use std::path::Path;
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 
 use trimloop_render::Picture;
 use trimloop_tests::fixture;
@@ -12,6 +13,9 @@ const PROGRAM: &str = env!("CARGO_BIN_EXE_trimloop");
 /// Letters and lines may be drawn a little differently by other versions of what draws them.
 const MEAN: f64 = 0.01;
 const WORST_REGION: f64 = 0.35;
+
+/// One window at a time.
+static ALONE: Mutex<()> = Mutex::new(());
 
 /// Whether windows can be opened here; where they must be and cannot, the test fails.
 fn has_display() -> bool {
@@ -29,6 +33,7 @@ fn windows_look_as_they_did() {
     if !has_display() {
         return;
     }
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = fixture::folder().with_file_name("docs").join("screenshots");
     let mut wrong = Vec::new();
     for scene in &SCENES {
@@ -52,10 +57,11 @@ fn a_window_turns_comes_back_and_outlives_its_device() {
     if !has_display() {
         return;
     }
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let good = fixture::folder().join("cadquery/box.step");
     let plain = ["view".as_ref(), good.as_os_str()];
     let mut window = Window::open(Path::new(PROGRAM), plain, SIZE).expect("a window");
-    let picture = window.settled().expect("a picture");
+    let picture = window.started().expect("a picture");
     // A turn, and back.
     window.drag(1, [700, 500], [800, 540]).expect("a drag");
     assert!(window.settled().expect("a picture") != picture);
@@ -72,7 +78,7 @@ fn a_window_turns_comes_back_and_outlives_its_device() {
     std::thread::sleep(std::time::Duration::from_secs(4));
     assert!(window.is_alive());
     window.await_window().expect("another window");
-    let again = window.settled().expect("a picture");
+    let again = window.started().expect("a picture");
     assert!(window.is_alive());
     // The model is there, as it was before, above the message.
     assert_eq!(again.pixel(800, 400), picture.pixel(800, 400));
@@ -83,12 +89,13 @@ fn a_picture_is_saved_where_there_is_no_file_dialog() {
     if !has_display() {
         return;
     }
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("part.step");
     std::fs::copy(fixture::folder().join("cadquery/bracket.step"), &file).expect("copied");
     let window =
         Window::open(Path::new(PROGRAM), ["view".as_ref(), file.as_os_str()], SIZE).expect("a window");
-    window.settled().expect("a picture");
+    window.started().expect("a picture");
     window.press(b's', With::Control).expect("a key");
     // A line with the path beside the file, which only needs to be confirmed.
     let pause = || std::thread::sleep(std::time::Duration::from_secs(2));
