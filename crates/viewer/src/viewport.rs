@@ -106,7 +106,7 @@ const REST: Duration = Duration::from_millis(60);
 /// What a picture needs more time to evaluate for comes in several frames. Where the device is a program, which takes as long
 /// for each of them, they are fewer.
 const BUDGET: Duration = Duration::from_millis(25);
-const SOFTWARE_BUDGET: Duration = Duration::from_millis(200);
+const SOFTWARE_BUDGET: Duration = Duration::from_millis(120);
 /// While parts arrive, the picture is drawn no more often than this.
 const PATIENCE_S: f64 = 0.15;
 
