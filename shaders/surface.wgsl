@@ -68,11 +68,14 @@ fn coverage(item: u32, uv: vec2<f32>, across: vec2<f32>, down: vec2<f32>) -> u32
 
 // The colour of a face at a place, linear.
 fn tint(item: u32, place: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
-    if view.tightest.x == 0.0 || items[item].flags != 0u {
-        return items[item].color.rgb;
+    let own = items[item].color.rgb;
+    // Derivatives are taken where all pixels are: what decides here is the same for all of them.
+    if view.tightest.x == 0.0 {
+        return own;
     }
     let n = normalize(normal);
-    return ramp(view.tightest.x * curvature(dpdx(place), dpdy(place), dpdx(n), dpdy(n)));
+    let bent = ramp(view.tightest.x * curvature(dpdx(place), dpdy(place), dpdx(n), dpdy(n)));
+    return select(bent, own, items[item].flags != 0u);
 }
 
 // The larger principal curvature, from how place and unit normal change along two directions: the fundamental forms of any

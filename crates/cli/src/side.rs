@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use anyhow::Context;
-use rayon::prelude::*;
 use serde::Serialize;
 use trimloop_brep::{Diagnostic, Model, Severity};
-use trimloop_compare::{Choice, MeshError, MeshFile, Shape, choose, is_mesh_extension, read_mesh};
+use trimloop_compare::{
+    Choice, MeshError, MeshFile, Shape, choose, is_mesh_extension, mesh_for_comparison, read_mesh,
+};
 use trimloop_geom::Aabb;
 use trimloop_import::ImportOptions;
-use trimloop_mesh::{LinearDeflection, MeshOptions, Monitor};
+use trimloop_mesh::Monitor;
 
 use crate::arguments::{MeshUnit, MeshUp};
 
@@ -55,16 +56,6 @@ impl FileReport {
     }
 }
 
-/// How CAD files are meshed for a comparison: five times as fine as usual, since triangles stand in for the exact surface
-/// where the nearest place is sought.
-fn mesh_options() -> MeshOptions {
-    MeshOptions {
-        linear_deflection: LinearDeflection::Relative(2e-4),
-        angular_deflection_rad: 10f64.to_radians(),
-        ..MeshOptions::default()
-    }
-}
-
 /// Reads a file.
 pub fn load(path: &Path, hidden: bool, monitor: &dyn Monitor) -> anyhow::Result<Loaded> {
     if is_mesh_extension(path) {
@@ -98,12 +89,7 @@ fn load_cad(path: &Path, hidden: bool, monitor: &dyn Monitor) -> anyhow::Result<
     if hidden {
         model.show_hidden();
     }
-    let options = mesh_options();
-    let meshes = model
-        .parts
-        .par_iter()
-        .map(|part| trimloop_mesh::mesh_part(part, &options, monitor))
-        .collect::<Result<Vec<_>, _>>()?;
+    let meshes = mesh_for_comparison(&model, monitor)?;
     let shape = Shape::of_model(&model, &meshes);
     if shape.triangles.triangles.is_empty() {
         anyhow::bail!("nothing in it has an area that could be compared");

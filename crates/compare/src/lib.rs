@@ -34,7 +34,7 @@ pub use picture::{Spot, View, heat, heat_map, shaded};
 pub use read::{MeshError, MeshFile, is_mesh_extension, read_mesh};
 pub use regression::{Ran, Status, junit, page, status_of};
 pub use rim::Rim;
-pub use shape::{Patch, Placed, Shape};
+pub use shape::{Patch, Placed, Shape, mesh_for_comparison};
 pub use suite::{Case, Known, Quantities, Suite, SuiteError};
 pub use topology::{Topology, topology};
 pub use triangles::{Piece, Triangles};

@@ -3,9 +3,12 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
+use rayon::prelude::*;
 use trimloop_brep::{BodyKind, FaceGeometry, Model, Part};
 use trimloop_geom::{Derivatives, Direction, Interval, Surface};
-use trimloop_mesh::{FaceMesh, FaceStatus, PartMesh};
+use trimloop_mesh::{
+    Cancelled, FaceMesh, FaceStatus, LinearDeflection, MeshOptions, Monitor, PartMesh, mesh_part,
+};
 
 use crate::rim::{Chords, Rim};
 use crate::triangles::Triangles;
@@ -62,6 +65,20 @@ pub struct Placed {
     /// Where a whole side of its parameters is a single point: which parameter is constant there (0 for u), and the
     /// point in the model's coordinates.
     pub poles: Vec<(usize, DVec3)>,
+}
+
+/// Meshes the parts of a CAD file for a comparison: five times as fine as usual, since triangles stand in for the exact
+/// surface where the nearest place is sought.
+///
+/// # Errors
+/// Where `monitor` stops it.
+pub fn mesh_for_comparison(model: &Model, monitor: &dyn Monitor) -> Result<Vec<PartMesh>, Cancelled> {
+    let options = MeshOptions {
+        linear_deflection: LinearDeflection::Relative(2e-4),
+        angular_deflection_rad: 10f64.to_radians(),
+        ..MeshOptions::default()
+    };
+    model.parts.par_iter().map(|part| mesh_part(part, &options, monitor)).collect()
 }
 
 impl Placed {

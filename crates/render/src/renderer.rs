@@ -20,7 +20,7 @@ use crate::passes::{Pass, Passes, Trim};
 use crate::picture::Picture;
 use crate::scene::{Highlight, Instance, Scene, ScenePart};
 use crate::stage::{PieceKey, Stage};
-use crate::targets::{Target, Targets, depth_attachment, view_of};
+use crate::targets::{Target, Targets, attachment, depth_attachment, view_of};
 
 pub use identify::{Identified, Pending};
 
@@ -141,9 +141,13 @@ impl Renderer {
             return Ok(());
         }
         let (gpu, stage) = (&self.gpu, &mut self.stage);
-        gpu.scoped("bring a part to the device", || stage.set_part(gpu, index, &part))?;
-        self.scene.parts[index] = part;
-        Ok(())
+        let done = gpu.scoped("bring a part to the device", || stage.set_part(gpu, index, &part));
+        // What the device does not have is not drawn.
+        self.scene.parts[index] = match done {
+            Ok(()) => part,
+            Err(_) => ScenePart { name: part.name, ..ScenePart::default() },
+        };
+        Ok(done?)
     }
 
     /// What closes solids that a section plane (an index of [`Look::sections`]) cuts open (see [`crate::Cutter`]); `None` for
@@ -662,15 +666,7 @@ fn compose(
     let view = view_of(&targets.picture);
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("compose"),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: &view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                store: wgpu::StoreOp::Store,
-            },
-        })],
+        color_attachments: &[attachment(&view, None, [0.0; 4])],
         timestamp_writes: clock.map(|clock| clock.of_render(3)),
         ..Default::default()
     });

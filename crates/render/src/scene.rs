@@ -85,7 +85,7 @@ pub struct Triangles {
 }
 
 /// What stands out in a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Highlight {
     /// Index of the instance.
     pub instance: usize,

@@ -39,17 +39,19 @@ impl Target {
 
     /// To be drawn into, on `clear`.
     pub fn attachment(&self, clear: [f64; 4]) -> Option<wgpu::RenderPassColorAttachment<'_>> {
-        let [r, g, b, a] = clear;
-        Some(wgpu::RenderPassColorAttachment {
-            view: &self.view,
-            depth_slice: None,
-            resolve_target: self.resolved.as_ref(),
-            ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a }),
-                store: wgpu::StoreOp::Store,
-            },
-        })
+        attachment(&self.view, self.resolved.as_ref(), clear)
     }
+}
+
+/// A texture to be drawn into, on `clear`, and the one that it is resolved to.
+pub(crate) fn attachment<'v>(
+    view: &'v wgpu::TextureView,
+    resolve_target: Option<&'v wgpu::TextureView>,
+    [r, g, b, a]: [f64; 4],
+) -> Option<wgpu::RenderPassColorAttachment<'v>> {
+    let load = wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a });
+    let ops = wgpu::Operations { load, store: wgpu::StoreOp::Store };
+    Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target, ops })
 }
 
 impl Targets {

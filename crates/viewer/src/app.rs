@@ -14,16 +14,14 @@ use egui_wgpu::RenderState;
 use glam::DVec3;
 use trimloop_geom::Aabb;
 use trimloop_gpu::Gpu;
-use trimloop_measure::Feature;
 use trimloop_render::{Direction, Lod, Look};
 
 use crate::deviation::Distances;
 use crate::display::{self, Display};
-use crate::document::{Document, Picked};
+use crate::document::Document;
 use crate::export::Exporting;
 use crate::job::Job;
 use crate::loader::{Loading, ReadyPart};
-use crate::measure::Subject;
 use crate::navigation::Navigation;
 use crate::panels::{self, DisplayAction, Tab};
 use crate::resume::{Resume, State};
@@ -360,31 +358,21 @@ impl App {
         self.view.direction = direction;
     }
 
-    fn fit(&mut self, nodes: Option<&[usize]>) {
-        let Some(document) = self.documents.get(self.active) else { return };
-        let points: Vec<DVec3> = match nodes {
-            Some(nodes) => nodes
-                .iter()
-                .flat_map(|node| document.outline(Some(document.instances_below(*node))))
-                .collect(),
-            None => document.outline(None),
-        };
-        let before = self.view;
-        self.view.fit(&points, self.aspect);
-        if before != self.view {
-            self.remember(before);
-        }
+    /// Looks at all that is shown.
+    fn fit(&mut self) {
+        let points = self.documents.get(self.active).map(|document| document.outline(None));
+        self.look_at(&points.unwrap_or_default());
     }
 
     /// Looks at what is selected.
     fn fit_selection(&mut self) {
-        let Some(document) = self.documents.get_mut(self.active) else { return };
-        let points = document.outline_of_selection();
-        if points.is_empty() {
-            return;
-        }
+        let points = self.documents.get_mut(self.active).map(Document::outline_of_selection);
+        self.look_at(&points.unwrap_or_default());
+    }
+
+    fn look_at(&mut self, points: &[DVec3]) {
         let before = self.view;
-        self.view.fit(&points, self.aspect);
+        self.view.fit(points, self.aspect);
         if before != self.view {
             self.remember(before);
         }
@@ -398,7 +386,7 @@ impl App {
             TreeAction::Select(node, is_added) => document.select_node(node, is_added),
             TreeAction::Fit(node) => {
                 document.select_node(node, false);
-                self.fit(Some(&[node]));
+                self.fit_selection();
             }
         }
     }
@@ -426,7 +414,7 @@ impl App {
         let Some(document) = self.documents.get_mut(self.active) else { return };
         let mut chosen = None;
         let mut asked = None;
-        // Not of what is left: messages come and go.
+        // Of the window: it is kept from one start to the next.
         let height = ui.ctx().content_rect().height();
         egui::Panel::bottom("details").resizable(true).min_size(140.0).default_size(0.42 * height).show(
             ui,
@@ -599,27 +587,11 @@ impl App {
         format!("{frame}\n{}, {read}", self.look.lod.name()).replace(", emit", "\nemit")
     }
 
-    /// One thing that is selected is measured, or two.
+    /// One face, edge or vertex that is selected is measured, or two, or whole parts.
     fn want_measures(&mut self) {
         let Some(document) = self.documents.get_mut(self.active) else { return };
-        let subject = |picked: &Picked| -> Option<Subject> {
-            let feature: Feature = picked.feature?;
-            let part = document.renderer.scene().instances.get(picked.instance)?.part;
-            Some(Subject { picked: *picked, part, transform: document.item(picked)?.transform, feature })
-        };
-        let whole = |picked: &Picked| {
-            let part = document.renderer.scene().instances.get(picked.instance)?.part;
-            picked.feature.is_none().then_some((picked.instance, part, document.home(picked.instance)?))
-        };
-        let wholes: Option<Vec<_>> = document.selection.iter().map(whole).collect();
-        if let Some(wholes) = wholes.filter(|wholes| !wholes.is_empty()) {
-            let model = document.model.clone();
-            document.measure.want_wholes(&self.context, &model, wholes);
-            return;
-        }
-        let subjects: Option<Vec<Subject>> = document.selection.iter().map(subject).collect();
-        let subjects = subjects.filter(|subjects| subjects.len() <= 2).unwrap_or_default();
+        let wanted = document.wanted_measure();
         let model = document.model.clone();
-        document.measure.want(&self.context, &model, subjects);
+        document.measure.want(&self.context, &model, wanted);
     }
 }

@@ -7,10 +7,10 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 use trimloop_brep::{Model, Rgba};
-use trimloop_compare::{Shape, Target, choose, heat, is_mesh_extension, read_mesh};
+use trimloop_compare::{Shape, Target, choose, heat, is_mesh_extension, mesh_for_comparison, read_mesh};
 use trimloop_gpu::Gpu;
 use trimloop_import::ImportOptions;
-use trimloop_mesh::{LinearDeflection, MeshOptions, Silent};
+use trimloop_mesh::Silent;
 use trimloop_render::{Instance, RenderError, Renderer, Scene, ScenePart, Triangles};
 
 /// A model's distances from a reference, ready to be drawn.
@@ -54,26 +54,12 @@ const LONGEST: f64 = 0.012;
 /// Colours between blue and red.
 const BANDS: usize = 24;
 
-/// As fine as `trimloop compare` takes CAD files.
-fn mesh_options(relative: f64) -> MeshOptions {
-    MeshOptions {
-        linear_deflection: LinearDeflection::Relative(relative),
-        angular_deflection_rad: 10f64.to_radians(),
-        ..MeshOptions::default()
-    }
-}
-
 /// Measures how far `model` is from what `reference` holds, a mesh or a CAD file.
 ///
 /// # Errors
 /// Where the reference cannot be read.
 pub(crate) fn measure(model: &Model, reference: &Path) -> Result<Distances, String> {
-    let meshes: Result<Vec<_>, _> = model
-        .parts
-        .par_iter()
-        .map(|part| trimloop_mesh::mesh_part(part, &mesh_options(2e-4), &Silent))
-        .collect();
-    let meshes = meshes.map_err(|error| error.to_string())?;
+    let meshes = mesh_for_comparison(model, &Silent).map_err(|error| error.to_string())?;
     let own = Shape::of_model(model, &meshes);
     let (shape, convention) = read(reference, &own)?;
     if shape.triangles.triangles.is_empty() {
@@ -157,12 +143,8 @@ fn read(path: &Path, own: &Shape) -> Result<(Shape, Option<String>), String> {
         return Ok((shape, Some(format!("{} ({})", choice.convention, choice.reason))));
     }
     let model = trimloop_import::read(path, &ImportOptions::default()).map_err(|error| error.to_string())?;
-    let meshes: Result<Vec<_>, _> = model
-        .parts
-        .par_iter()
-        .map(|part| trimloop_mesh::mesh_part(part, &mesh_options(2e-4), &Silent))
-        .collect();
-    Ok((Shape::of_model(&model, &meshes.map_err(|error| error.to_string())?), None))
+    let meshes = mesh_for_comparison(&model, &Silent).map_err(|error| error.to_string())?;
+    Ok((Shape::of_model(&model, &meshes), None))
 }
 
 impl Deviation {
@@ -197,19 +179,19 @@ impl Deviation {
         self.found.largest_mm
     }
 
-    /// Draws with the scale that is wanted now; whether something changed.
+    /// Draws with the scale that is wanted now.
     ///
     /// # Errors
     /// What the device refuses.
-    pub fn update(&mut self) -> Result<bool, RenderError> {
+    pub fn update(&mut self) -> Result<(), RenderError> {
         if self.drawn_mm == self.most_mm {
-            return Ok(false);
+            return Ok(());
         }
         self.drawn_mm = self.most_mm;
         for k in 0..self.found.parts.len() {
             self.renderer.set_part(k, self.found.part(k, self.most_mm))?;
         }
-        Ok(true)
+        Ok(())
     }
 }
 

@@ -9,14 +9,14 @@ use glam::{DAffine3, DVec3};
 use trimloop_brep::{Diagnostic, EdgeId, EntityRef, Face, FaceGeometry, Model, Part, Severity};
 use trimloop_geom::Aabb;
 use trimloop_gpu::Gpu;
-use trimloop_measure::{Feature, Item};
+use trimloop_measure::Feature;
 use trimloop_render::{Highlight, Place, RenderError, Renderer, Scene};
 use trimloop_trim::Tolerance;
 
 use crate::app::Sight;
 use crate::deviation::Deviation;
 use crate::loader::ReadyPart;
-use crate::measure::{Measure, number, vector};
+use crate::measure::{Measure, Subject, Wanted, number, vector};
 use crate::section::Caps;
 
 /// An open file.
@@ -440,15 +440,28 @@ impl Document {
         self.model.parts.get(self.renderer.scene().instances.get(instance)?.part)
     }
 
-    /// What can be measured of something selected, where it stands in the model.
-    pub fn item(&self, picked: &Picked) -> Option<Item<'_>> {
-        let part = self.part_of(picked.instance)?;
-        Some(Item { part, transform: *self.homes.get(picked.instance)?, feature: picked.feature? })
-    }
-
-    /// Where an instance stands in the model.
-    pub fn home(&self, instance: usize) -> Option<DAffine3> {
-        self.homes.get(instance).copied()
+    /// What of the selection can be measured, where it stands in the model.
+    pub fn wanted_measure(&self) -> Wanted {
+        let part = |picked: &Picked| Some(self.renderer.scene().instances.get(picked.instance)?.part);
+        let home = |picked: &Picked| self.homes.get(picked.instance).copied();
+        let subject = |own: &Picked| {
+            let (feature, part, transform) = (own.feature?, part(own)?, home(own)?);
+            Some(Subject { picked: *own, part, transform, feature })
+        };
+        let whole = |own: &Picked| {
+            own.feature.is_none().then_some(())?;
+            Some((own.instance, part(own)?, home(own)?))
+        };
+        if self.selection.is_empty() {
+            return Wanted::Nothing;
+        }
+        if let Some(wholes) = self.selection.iter().map(whole).collect() {
+            return Wanted::Wholes(wholes);
+        }
+        match self.selection.iter().map(subject).collect::<Option<Vec<Subject>>>() {
+            Some(subjects) if subjects.len() <= 2 => Wanted::Features(subjects),
+            _ => Wanted::Nothing,
+        }
     }
 
     /// How far an instance is from its place in the model.

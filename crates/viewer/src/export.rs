@@ -152,23 +152,15 @@ pub(crate) fn whole_file(
 ) -> Result<(), String> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let failed = |error: std::io::Error| format!("cannot write {}: {error}", path.display());
-    let draft = tempfile::Builder::new().suffix(".tmp").tempfile_in(folder).map_err(failed)?;
+    let mut builder = tempfile::Builder::new();
+    builder.suffix(".tmp");
+    // As the user's umask gives them to new files, not for the owner alone.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let draft = builder.tempfile_in(folder).map_err(failed)?;
     let mut out = BufWriter::new(draft);
     write(&mut out).map_err(failed)?;
     let draft = out.into_inner().map_err(|error| failed(error.into_error()))?;
-    set_usual_permissions(draft.as_file());
     draft.persist(path).map_err(|error| failed(error.error))?;
     Ok(())
-}
-
-/// Temporary files are for their owner alone; others are not.
-fn set_usual_permissions(file: &std::fs::File) {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // Where that is refused, the file is there all the same.
-        let _ = file.set_permissions(std::fs::Permissions::from_mode(0o644));
-    }
-    #[cfg(not(unix))]
-    let _ = file;
 }

@@ -24,8 +24,8 @@ pub(crate) struct Subject {
 /// What measuring told.
 #[derive(Clone, Debug)]
 pub(crate) struct Measured {
-    pub subjects: Vec<Subject>,
-    /// Of a single subject.
+    of: Wanted,
+    /// Of a single face, edge or vertex.
     pub facts: Option<Facts>,
     /// Of two.
     pub between: Option<Between>,
@@ -43,66 +43,51 @@ pub(crate) struct Wholes {
     pub center: DVec3,
 }
 
+/// What is to be measured.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) enum Wanted {
+    #[default]
+    Nothing,
+    /// One face, edge or vertex, or two of them.
+    Features(Vec<Subject>),
+    /// Whole parts: instance, part and place.
+    Wholes(Vec<(usize, usize, DAffine3)>),
+}
+
+impl Wanted {
+    /// Whether it is about the same, wherever that was clicked.
+    fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Features(a), Self::Features(b)) => {
+                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.picked.is_same(&b.picked))
+            }
+            _ => self == other,
+        }
+    }
+}
+
 /// The selection's measures, and those that are kept.
 #[derive(Debug, Default)]
 pub(crate) struct Measure {
-    wanted: Vec<Subject>,
-    /// Instances that are measured as wholes.
-    wanted_wholes: Vec<usize>,
+    wanted: Wanted,
     job: Option<Job<Measured>>,
     pub found: Option<Measured>,
     pub kept: Vec<Measured>,
 }
 
 impl Measure {
-    /// Begins to measure one subject or two, unless that is done or on its way.
-    pub fn want(&mut self, context: &egui::Context, model: &Arc<Model>, subjects: Vec<Subject>) {
-        let is_same = |a: &[Subject], b: &[Subject]| {
-            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.picked.is_same(&b.picked))
-        };
-        if is_same(&self.wanted, &subjects) {
+    /// Begins to measure something, unless that is done or on its way.
+    pub fn want(&mut self, context: &egui::Context, model: &Arc<Model>, wanted: Wanted) {
+        if self.wanted.is_same(&wanted) {
             return;
         }
         self.found = None;
         self.job = None;
-        self.wanted_wholes.clear();
-        self.wanted = subjects.clone();
-        if subjects.is_empty() {
-            return;
+        self.wanted = wanted.clone();
+        if wanted != Wanted::Nothing {
+            let model = model.clone();
+            self.job = Some(Job::start(context, move || Measured::of(&model, wanted)));
         }
-        let model = model.clone();
-        self.job = Some(Job::start(context, move || {
-            let item =
-                |s: &Subject| Item { part: &model.parts[s.part], transform: s.transform, feature: s.feature };
-            let (facts, between) = match &subjects[..] {
-                [one] => (Some(facts(item(one))), None),
-                [a, b] => (None, between(item(a), item(b))),
-                _ => (None, None),
-            };
-            Measured { subjects, facts, between, wholes: None }
-        }));
-    }
-
-    /// Begins to measure whole parts, given by instance, part and place, unless that is done or on its way.
-    pub fn want_wholes(
-        &mut self,
-        context: &egui::Context,
-        model: &Arc<Model>,
-        wholes: Vec<(usize, usize, DAffine3)>,
-    ) {
-        if self.wanted_wholes.iter().eq(wholes.iter().map(|(instance, ..)| instance)) {
-            return;
-        }
-        self.found = None;
-        self.wanted.clear();
-        self.wanted_wholes = wholes.iter().map(|(instance, ..)| *instance).collect();
-        let model = model.clone();
-        self.job = Some(Job::start(context, move || Measured {
-            subjects: Vec::new(),
-            facts: None,
-            between: None,
-            wholes: Wholes::of(&model, &wholes),
-        }));
     }
 
     /// Takes over what has been found; whether that is something new.
@@ -128,10 +113,7 @@ impl Measure {
     /// Keeps what is measured now.
     pub fn keep(&mut self) {
         let Some(found) = &self.found else { return };
-        let is_there = self.kept.iter().any(|own| {
-            own.subjects.len() == found.subjects.len()
-                && own.subjects.iter().zip(&found.subjects).all(|(a, b)| a.picked.is_same(&b.picked))
-        });
+        let is_there = self.kept.iter().any(|own| own.of.is_same(&found.of));
         if !is_there {
             self.kept.push(found.clone());
         }
@@ -185,6 +167,29 @@ impl Wholes {
 }
 
 impl Measured {
+    fn of(model: &Model, wanted: Wanted) -> Self {
+        let item =
+            |s: &Subject| Item { part: &model.parts[s.part], transform: s.transform, feature: s.feature };
+        let (facts, between, wholes) = match &wanted {
+            Wanted::Nothing => (None, None, None),
+            Wanted::Features(subjects) => match &subjects[..] {
+                [one] => (Some(facts(item(one))), None, None),
+                [a, b] => (None, between(item(a), item(b)), None),
+                _ => (None, None, None),
+            },
+            Wanted::Wholes(all) => (None, None, Wholes::of(model, all)),
+        };
+        Self { of: wanted, facts, between, wholes }
+    }
+
+    /// The faces, edges and vertices that were measured.
+    pub fn subjects(&self) -> &[Subject] {
+        match &self.of {
+            Wanted::Features(subjects) => subjects,
+            Wanted::Nothing | Wanted::Wholes(_) => &[],
+        }
+    }
+
     /// Lines of a name and a value.
     pub fn lines(&self) -> Vec<(String, String)> {
         if let Some(wholes) = &self.wholes {

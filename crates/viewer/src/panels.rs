@@ -168,6 +168,7 @@ pub(crate) fn display(
             if ui.button("Reference…").clicked() {
                 action = Some(DisplayAction::ChooseReference);
             }
+            let mut is_changed = false;
             match &mut document.deviation {
                 None => {
                     ui.label(RichText::new("Choose a mesh or a CAD file to compare with.").weak());
@@ -186,10 +187,11 @@ pub(crate) fn display(
                             .range(1e-9..=1e6)
                             .suffix(" mm")
                             .custom_formatter(|value, _| short(value));
-                        ui.add(drag);
+                        is_changed = ui.add(drag).changed();
                     });
                 }
             }
+            document.revision += u64::from(is_changed);
         }
         Colors::Own | Colors::Parts | Colors::Kinds => {}
     }

@@ -542,9 +542,9 @@ fn show_feature(
 fn show_measure(ui: &Ui, document: &Document, frame: &Frame, measured: &Measured, color: Color32) {
     let painter = ui.painter().with_clip_rect(frame.rect);
     let moved = |k: usize, p: DVec3| {
-        p + measured.subjects.get(k).map_or(DVec3::ZERO, |s| document.moved(s.picked.instance))
+        p + measured.subjects().get(k).map_or(DVec3::ZERO, |s| document.moved(s.picked.instance))
     };
-    let at = match (measured.ends(), measured.subjects.as_slice()) {
+    let at = match (measured.ends(), measured.subjects()) {
         (Some([a, b]), _) => {
             let (Some(a), Some(b)) = (frame.at(moved(0, a)), frame.at(moved(1, b))) else { return };
             painter.line_segment([a, b], Stroke::new(2.0, color));

@@ -9,7 +9,7 @@ use crate::look::Look;
 use crate::passes::{Pass, Trim};
 use crate::picture::{Pick, Seen};
 use crate::scene::{FaceKind, Scene};
-use crate::targets::{IdTargets, depth_attachment, view_of};
+use crate::targets::{IdTargets, attachment, depth_attachment, view_of};
 use crate::{Place, RenderError};
 
 use super::{Bound, Renderer, check, copy_rows, read_back, tiles, trim_of};
@@ -124,12 +124,10 @@ impl Renderer {
         if column >= size[0] || row >= size[1] {
             return Ok(None);
         }
-        let (emission, faces) = self.prepare(camera, size, look, true, None)?;
-        let tile = Tile { column, row, size: [1, 1], jitter: [0.0; 2] };
-        let texels = self.identify(camera, size, look, &emission, &tile)?;
+        let found = self.identify_within(camera, size, look, [column, row], [1, 1])?;
         let at = glam::DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
-        Ok(pick_of(&self.scene, texels[0], &faces)
-            .and_then(|pick| Place::new(&self.scene, &pick, camera.ray(at, size))))
+        let pick = found.at(&self.scene, [column, row].map(i64::from));
+        Ok(pick.and_then(|pick| Place::new(&self.scene, &pick, camera.ray(at, size))))
     }
 
     /// The work that tells what the pixels of a tile show, submitted: the buffer that will hold it, and its bytes per row.
@@ -193,15 +191,7 @@ impl Renderer {
         let view = view_of(&targets.ids);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("identify"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
+            color_attachments: &[attachment(&view, None, [0.0; 4])],
             depth_stencil_attachment: Some(depth_attachment(&targets.depth, true)),
             ..Default::default()
         });

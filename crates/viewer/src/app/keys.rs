@@ -89,7 +89,7 @@ impl App {
             }
         }
         if plain(Key::F) {
-            self.fit(None);
+            self.fit();
         }
         if plain(Key::P) {
             self.remember(self.view);

@@ -32,7 +32,7 @@ impl App {
                 }
                 ui.separator();
                 if ui.button("Fit  (F)").clicked() {
-                    self.fit(None);
+                    self.fit();
                 }
                 ui.checkbox(&mut self.view.is_parallel, "Parallel  (P)");
                 ui.checkbox(&mut self.settings.has_cube, "View cube");
@@ -43,7 +43,7 @@ impl App {
                 }
                 if up != self.look.up {
                     (self.look.up, self.view.up) = (up, up);
-                    self.fit(None);
+                    self.fit();
                 }
             });
             ui.menu_button("Display", |ui| {
