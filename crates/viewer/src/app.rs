@@ -5,6 +5,7 @@ mod files;
 mod keys;
 mod menu;
 mod receive;
+mod sight;
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -14,7 +15,7 @@ use egui_wgpu::RenderState;
 use glam::DVec3;
 use trimloop_geom::Aabb;
 use trimloop_gpu::Gpu;
-use trimloop_render::{Direction, Lod, Look};
+use trimloop_render::{Lod, Look};
 
 use crate::deviation::Distances;
 use crate::display::{self, Display};
@@ -33,6 +34,8 @@ use crate::watch::Watch;
 use crate::{ViewError, ViewOptions};
 
 use ask::{Asking, Typing, Wanted};
+
+pub(crate) use sight::Sight;
 
 /// The viewer's window and all that is open in it.
 pub struct App {
@@ -101,19 +104,6 @@ struct Load {
     /// Whether it comes to the front as soon as there is something to see.
     is_front: bool,
 }
-
-/// From where a document is seen, and how it is cut: what is put away while another one is shown.
-#[derive(Clone, Debug)]
-pub(crate) struct Sight {
-    view: Navigation,
-    fitted: Option<Navigation>,
-    past: Vec<Navigation>,
-    future: Vec<Navigation>,
-    cuts: Cuts,
-}
-
-/// Views that can be returned to.
-const MOST_PAST: usize = 100;
 
 const SIDES: [(&str, Key); 7] = [
     ("front", Key::Num1),
@@ -282,54 +272,6 @@ impl App {
         }
     }
 
-    /// Brings a document to the front, as it was seen and cut when it was there last.
-    fn activate(&mut self, index: usize) {
-        if let Some(shown) = self.documents.iter_mut().find(|own| Some(own.id) == self.shown) {
-            shown.sight = Some(Sight {
-                view: self.view,
-                fitted: self.fitted,
-                past: std::mem::take(&mut self.past),
-                future: std::mem::take(&mut self.future),
-                cuts: self.cuts,
-            });
-        }
-        self.active = index;
-        self.tree.reset();
-        self.past.clear();
-        self.future.clear();
-        let next = self.documents.get_mut(index);
-        self.shown = next.as_ref().map(|own| own.id);
-        match next.and_then(|own| own.sight.take()) {
-            Some(sight) => {
-                self.view = Navigation { up: self.look.up, ..sight.view };
-                (self.fitted, self.cuts) = (sight.fitted, sight.cuts);
-                (self.past, self.future) = (sight.past, sight.future);
-                self.is_fitted = true;
-            }
-            None => {
-                self.is_fitted = std::mem::take(&mut self.is_resumed);
-                self.fitted = None;
-                self.cuts = Cuts::new();
-            }
-        }
-    }
-
-    fn close(&mut self, index: usize) {
-        let id = self.documents.get(index).map(|document| document.id);
-        self.drop_document(id);
-    }
-
-    /// Closes a document, if there is one of that number. Another one comes to the front only where it was there.
-    fn drop_document(&mut self, id: Option<u64>) {
-        let Some(index) = self.documents.iter().position(|own| Some(own.id) == id) else { return };
-        self.documents.remove(index);
-        if index < self.active {
-            self.active -= 1;
-        } else if index == self.active {
-            self.activate(self.active.min(self.documents.len().saturating_sub(1)));
-        }
-    }
-
     /// Tells what went wrong, once.
     fn complain(&mut self, message: String) {
         if !self.messages.contains(&message) {
@@ -342,40 +284,6 @@ impl App {
         self.notes.retain(|own| *own != note);
         self.notes.push(note);
         self.noted = Some(std::time::Instant::now());
-    }
-
-    /// Remembers the present view before it changes.
-    fn remember(&mut self, view: Navigation) {
-        self.past.push(view);
-        self.future.clear();
-        if self.past.len() > MOST_PAST {
-            self.past.remove(0);
-        }
-    }
-
-    fn look_from(&mut self, direction: Direction) {
-        self.remember(self.view);
-        self.view.direction = direction;
-    }
-
-    /// Looks at all that is shown.
-    fn fit(&mut self) {
-        let points = self.documents.get(self.active).map(|document| document.outline(None));
-        self.look_at(&points.unwrap_or_default());
-    }
-
-    /// Looks at what is selected.
-    fn fit_selection(&mut self) {
-        let points = self.documents.get_mut(self.active).map(Document::outline_of_selection);
-        self.look_at(&points.unwrap_or_default());
-    }
-
-    fn look_at(&mut self, points: &[DVec3]) {
-        let before = self.view;
-        self.view.fit(points, self.aspect);
-        if before != self.view {
-            self.remember(before);
-        }
     }
 
     fn act(&mut self, action: TreeAction) {

@@ -1,12 +1,15 @@
 //! Files that are open.
 
-use std::collections::{HashMap, HashSet};
+mod facts;
+mod succession;
+
+use std::collections::HashMap;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
-use trimloop_brep::{Diagnostic, EdgeId, EntityRef, Face, FaceGeometry, Model, Part, Severity};
+use trimloop_brep::{Diagnostic, EdgeId, EntityRef, Face, Model, Part, Severity};
 use trimloop_geom::Aabb;
 use trimloop_gpu::Gpu;
 use trimloop_measure::Feature;
@@ -16,7 +19,7 @@ use trimloop_trim::Tolerance;
 use crate::app::Sight;
 use crate::deviation::Deviation;
 use crate::loader::ReadyPart;
-use crate::measure::{Measure, Subject, Wanted, number, vector};
+use crate::measure::{Measure, Subject, Wanted};
 use crate::section::Caps;
 
 /// An open file.
@@ -78,9 +81,6 @@ impl Picked {
         self.instance == other.instance && self.feature == other.feature
     }
 }
-
-/// Names from the root on, and which of several of a name.
-type Path = [(String, usize)];
 
 /// Room around what is looked at, as a share of the model's size.
 const ROOM: f64 = 0.01;
@@ -312,71 +312,6 @@ impl Document {
         out
     }
 
-    /// Takes over from an older state of the same file what was hidden, how far it was taken apart and what was selected,
-    /// as far as that can be found again: by names from the root, and by entities.
-    pub fn take_over(&mut self, before: &Self) {
-        let (old, new) = (before.paths(), self.paths());
-        let hidden: HashSet<&Path> =
-            old.iter().filter(|(_, node)| !before.is_shown(*node)).map(|(path, _)| path.as_slice()).collect();
-        let now: Vec<usize> =
-            new.iter().filter(|(path, _)| hidden.contains(path.as_slice())).map(|(_, node)| *node).collect();
-        for node in now {
-            if self.model.nodes[node].part.is_some() {
-                self.show(node, false);
-            }
-        }
-        self.explode(before.explosion());
-        let places: HashMap<&Path, usize> = new.iter().map(|(path, node)| (path.as_slice(), *node)).collect();
-        for picked in &before.selection {
-            let Some(node) = before.node_of(picked.instance) else { continue };
-            let path = old.iter().find(|(_, own)| *own == node).map(|(path, _)| path.as_slice());
-            let Some(now) = path.and_then(|path| places.get(path)) else { continue };
-            let Some(instance) = self.instances_below(*now).next() else { continue };
-            let feature = match picked.feature {
-                None => None,
-                Some(feature) => {
-                    let Some(entity) = before.part_of(picked.instance).and_then(|p| entity_of(p, feature))
-                    else {
-                        continue;
-                    };
-                    let Some((part, feature)) = self.entities.get(&entity) else { continue };
-                    if *part != self.renderer.scene().instances[instance].part {
-                        continue;
-                    }
-                    Some(*feature)
-                }
-            };
-            self.select(Some(Picked { instance, feature, place: None }), true);
-        }
-    }
-
-    /// By node: names from the root on, and which of several of a name.
-    fn paths(&self) -> Vec<(Vec<(String, usize)>, usize)> {
-        let mut out = Vec::new();
-        let mut stack: Vec<(Vec<(String, usize)>, usize)> = self.named(&self.model.roots, &[]);
-        while let Some((path, node)) = stack.pop() {
-            stack.extend(self.named(&self.model.nodes[node].children, &path));
-            out.push((path, node));
-        }
-        out
-    }
-
-    fn named(&self, nodes: &[usize], above: &[(String, usize)]) -> Vec<(Vec<(String, usize)>, usize)> {
-        let mut counts: HashMap<&str, usize> = HashMap::new();
-        nodes
-            .iter()
-            .map(|&node| {
-                let own = &self.model.nodes[node];
-                let name = own.instance_name.as_deref().unwrap_or(own.name.as_str());
-                let count = counts.entry(name).or_default();
-                *count += 1;
-                let mut path = above.to_vec();
-                path.push((name.to_owned(), *count));
-                (path, node)
-            })
-            .collect()
-    }
-
     /// Shows in the heat map what is shown, where it is shown.
     pub fn arrange_deviation(&mut self) {
         let Some(deviation) = &mut self.deviation else { return };
@@ -559,117 +494,5 @@ impl Document {
                 way
             })
             .collect()
-    }
-
-    /// What is known of the selection, as lines of a name and a value.
-    pub fn facts(&self) -> Vec<(String, String)> {
-        let mut out = Vec::new();
-        let mut say = |name: &str, value: String| out.push((name.to_owned(), value));
-        let Some(picked) = self.selection.last() else { return out };
-        let are_features = self.selection.iter().all(|own| own.feature.is_some());
-        if self.selection.len() == 2 && are_features {
-            self.measure.facts().into_iter().for_each(|(name, value)| say(&name, value));
-            return out;
-        }
-        if self.selection.len() > 1 {
-            if let Some(node) = self.node {
-                say("node", self.model.nodes[node].name.clone());
-            }
-            say(if are_features { "selected" } else { "parts" }, self.selection.len().to_string());
-            let wholes = self.selection.iter().filter(|own| own.feature.is_none());
-            let points: Vec<DVec3> =
-                wholes.flat_map(|own| self.outline(Some(own.instance..own.instance + 1))).collect();
-            let bounds = Aabb::from_points(points);
-            if !bounds.is_empty() {
-                say("box", size_of_box(bounds));
-            }
-            if !are_features {
-                self.measure.facts().into_iter().for_each(|(name, value)| say(&name, value));
-            }
-            return out;
-        }
-        let Some(part) = self.part_of(picked.instance) else { return out };
-        if let Some(node) = self.node_of(picked.instance) {
-            let own = &self.model.nodes[node];
-            say("node", own.name.clone());
-            if own.instance_name.as_ref().is_some_and(|name| *name != own.name) {
-                say("use", own.instance_name.clone().unwrap_or_default());
-            }
-        }
-        say("part", if part.name.is_empty() { part.id.clone() } else { part.name.clone() });
-        let mut own_kind = None;
-        match picked.feature {
-            None => {
-                say("bodies", part.bodies.len().to_string());
-                say("faces", part.faces.len().to_string());
-                let size =
-                    self.renderer.scene().parts[self.renderer.scene().instances[picked.instance].part].bounds;
-                if !size.is_empty() {
-                    say("box", size_of_box(size));
-                }
-            }
-            Some(Feature::Face(face)) => {
-                let Some(own) = part.faces.get(face as usize) else { return out };
-                say("face", own.entity.to_string());
-                if !own.name.is_empty() {
-                    say("name", own.name.to_string());
-                }
-                own_kind = Some(surface_kind(own));
-                say("surface", surface_kind(own));
-            }
-            Some(Feature::Edge(edge)) => {
-                let Some(own) = part.edges.get(edge as usize) else { return out };
-                say("edge", own.entity.to_string());
-            }
-            Some(Feature::Vertex(vertex)) => {
-                let Some(own) = part.vertices.get(vertex as usize) else { return out };
-                say("vertex", own.entity.to_string());
-            }
-        }
-        // Of faces, the kind stands there already, unless the surface is a plainer one than the file says.
-        let kind = own_kind.unwrap_or_default();
-        let facts = self.measure.facts().into_iter();
-        facts
-            .filter(|(name, value)| name != "kind" || *value != kind)
-            .for_each(|(name, value)| say(&name, value));
-        if let Some(place) = picked.place {
-            // Of a cone, the radius depends on where.
-            if let Some(radius) = place.radius_mm
-                && self
-                    .measure
-                    .found
-                    .as_ref()
-                    .is_some_and(|m| m.facts.as_ref().is_some_and(|f| f.radius_mm.is_none()))
-            {
-                say("radius here", format!("{} mm", number(radius)));
-            }
-            say("point", format!("{} mm", vector(place.point - self.moved(picked.instance))));
-            say("normal", vector(place.normal));
-            say("u, v", format!("{}, {}", number(place.uv.x), number(place.uv.y)));
-        }
-        out
-    }
-}
-
-/// What kind of surface a face has.
-fn surface_kind(face: &Face) -> String {
-    match &face.geometry {
-        FaceGeometry::Surface(surface) => surface.kind().to_owned(),
-        FaceGeometry::Facets(_) => "triangles".to_owned(),
-        FaceGeometry::Unreadable(reason) => format!("unreadable: {reason}"),
-    }
-}
-
-/// The sides of a box.
-fn size_of_box(bounds: Aabb) -> String {
-    let d = bounds.max - bounds.min;
-    format!("{} x {} x {} mm", number(d.x), number(d.y), number(d.z))
-}
-
-fn entity_of(part: &Part, feature: Feature) -> Option<EntityRef> {
-    match feature {
-        Feature::Face(face) => Some(part.faces.get(face as usize)?.entity),
-        Feature::Edge(edge) => Some(part.edges.get(edge as usize)?.entity),
-        Feature::Vertex(vertex) => Some(part.vertices.get(vertex as usize)?.entity),
     }
 }

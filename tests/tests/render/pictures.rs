@@ -1,6 +1,8 @@
 //! What is drawn looks as it did.
 
-use trimloop_render::{Background, Direction, EdgeStyle, Look, Picture};
+use glam::{DAffine3, DVec3};
+use trimloop_brep::{Model, Node};
+use trimloop_render::{Background, Direction, EdgeStyle, Look, Paint, Picture};
 
 use crate::{camera, model, renderer, scene};
 
@@ -72,4 +74,54 @@ fn sections_hidden_edges_and_clear_backgrounds() {
     looks_as_before("section", &picture).expect("as before");
     assert_eq!(picture.pixel(0, 0)[3], 0);
     assert_eq!(picture.pixel(160, 120)[3], 255);
+}
+
+#[test]
+fn colours_tell_the_radius_of_curvature() {
+    let name = "cadquery/sphere.step";
+    let Some(gpu) = crate::GPU.as_ref() else { return };
+    let scene = scene(&model(name));
+    let camera = camera(&scene, Direction::ISO, SIZE);
+    let mut renderer = trimloop_render::Renderer::new(gpu, scene).expect("a renderer");
+    // The ball's radius is 10 mm: at the end of the scale it is red, in its middle green, far below blue.
+    for (tightest_mm, strongest) in [(10.0, 0), (5.0, 1), (0.01, 2)] {
+        let look =
+            Look { paint: Paint::Curvature { tightest_mm }, edges: EdgeStyle::None, ..Look::default() };
+        let picture = renderer.picture(&camera, SIZE, &look).expect("a picture");
+        let pixel = picture.pixel(SIZE[0] / 2, SIZE[1] / 2);
+        let others = (0..3).filter(|k| *k != strongest).map(|k| pixel[k]).max().expect("two");
+        assert!(pixel[strongest] > others + 60, "{tightest_mm}: {pixel:?}");
+    }
+}
+
+#[test]
+fn a_picture_in_parcels_ends_as_the_whole() {
+    let Some(gpu) = crate::GPU.as_ref() else { return };
+    // Ten parts of 58 faces, beside each other.
+    let one = model("cadquery/gear_blank.step");
+    let node = |k: usize| Node {
+        part: Some(k),
+        transform: DAffine3::from_translation(DVec3::new(100.0 * k as f64, 0.0, 0.0)),
+        ..Node::default()
+    };
+    let ten = Model {
+        parts: vec![one.parts[0].clone(); 10],
+        nodes: (0..10).map(node).collect(),
+        roots: (0..10).collect(),
+        ..Model::default()
+    };
+    let scene = scene(&ten);
+    let camera = camera(&scene, Direction::ISO, SIZE);
+    let mut renderer = trimloop_render::Renderer::new(gpu, scene).expect("a renderer");
+    let look = Look::default();
+    let mut complete = Vec::new();
+    while complete.last() != Some(&true) && complete.len() < 100 {
+        renderer.paint(&camera, SIZE, &look, std::time::Duration::ZERO).expect("painted");
+        assert!(renderer.statistics().evaluated > 0, "{complete:?}");
+        complete.push(renderer.statistics().is_complete);
+    }
+    assert!(complete.len() > 1 && complete.last() == Some(&true), "{complete:?}");
+    // Nothing is left to evaluate.
+    renderer.picture(&camera, SIZE, &look).expect("a picture");
+    assert_eq!(renderer.statistics().evaluated, 0);
 }
