@@ -1,15 +1,12 @@
 //! The compressed form (IGES 5.3 section 2.3), brought into the fixed one: after the Global section each directory entry is
 //! `D`, its number and the fields that differ from the entry before (`@field_value`), followed by its parameter lines.
 
-use crate::lines::{Section, Sheet, lines, split, without_tabs};
+use crate::lines::{PARAMETER_WIDTH, Section, Sheet, lines, split, without_tabs};
 use crate::value::{After, next};
 use crate::{Delimiters, Global, ReadError, SyntaxError};
 
 /// The fields of a directory entry, numbered from 1 as in the specification.
 type Fields = [Vec<u8>; 21];
-
-/// Columns of a parameter line.
-const PARAMETER_WIDTH: usize = 64;
 
 /// The sheet that the file would be in fixed form.
 pub(crate) fn expanded(bytes: &[u8], errors: &mut Vec<SyntaxError>) -> Result<Sheet, ReadError> {

@@ -5,12 +5,9 @@ use std::ops::Range;
 use crate::compressed;
 use crate::directory::DirectoryEntry;
 use crate::global::LAST_OF_UNITS;
-use crate::lines::{Line, Sheet, lines, look_like_iges};
+use crate::lines::{BACK_WIDTH, Line, PARAMETER_WIDTH, Sheet, lines, look_like_iges};
 use crate::value::decode;
 use crate::{Entity, Global, ReadError, Section, SyntaxError};
-
-/// Columns of a Parameter line that hold parameters; the others point back to the directory.
-const PARAMETER_WIDTH: usize = 64;
 
 /// An IGES file.
 #[derive(Clone, Debug)]
@@ -40,8 +37,7 @@ impl IgesFile {
         let start: Vec<String> =
             sheet.of(Section::Start).map(|line| decode(line.text).trim_end().to_owned()).collect();
         let directory = directory(&sheet.of(Section::Directory).collect::<Vec<_>>(), &mut errors);
-        let parameters: Vec<Line<'_>> = sheet.of(Section::Parameter).collect();
-        let (text, ranges) = assemble(&directory, &parameters, &mut errors);
+        let ranges = ranges(&directory, &sheet.backs, &mut errors);
         check_terminate(&sheet, &mut errors);
         let global = Global::parse(&joined(Section::Global));
         if global.parameter_count < LAST_OF_UNITS {
@@ -52,6 +48,7 @@ impl IgesFile {
             let line = sheet.of(Section::Global).last().map_or(0, |line| line.number);
             errors.push(SyntaxError { line, section: Section::Global, entry: None, message });
         }
+        let text = sheet.parameters;
         Ok(Self { start: start.join("\n"), global, directory, ranges, text, errors })
     }
 
@@ -132,17 +129,16 @@ fn directory(lines: &[Line<'_>], errors: &mut Vec<SyntaxError>) -> Vec<Directory
     out
 }
 
-/// The parameters' text without the pointers back, and where each entity's part of it lies.
-fn assemble(
+/// Where each entity's part of the parameters' text lies, by what the Parameter lines point back to.
+fn ranges(
     directory: &[DirectoryEntry],
-    lines: &[Line<'_>],
+    backs: &[[u8; BACK_WIDTH]],
     errors: &mut Vec<SyntaxError>,
-) -> (Vec<u8>, Vec<Range<usize>>) {
-    let text = lines.iter().flat_map(|line| line.text[..PARAMETER_WIDTH].iter().copied()).collect();
-    let runs = runs(lines);
+) -> Vec<Range<usize>> {
+    let runs = runs(backs);
     let mut ranges = Vec::with_capacity(directory.len());
     for entry in directory {
-        let told = told_range(entry, lines);
+        let told = told_range(entry, backs.len());
         // What the lines themselves say of the entity that they belong to is worth more than a count.
         let run = runs.get(&entry.number).cloned();
         let range = match (told, run) {
@@ -158,26 +154,26 @@ fn assemble(
         };
         ranges.push(range.start * PARAMETER_WIDTH..range.end * PARAMETER_WIDTH);
     }
-    (text, ranges)
+    ranges
 }
 
-/// The lines that the directory names.
-fn told_range(entry: &DirectoryEntry, lines: &[Line<'_>]) -> Option<Range<usize>> {
-    let first = (entry.parameters as usize).checked_sub(1).filter(|first| *first < lines.len())?;
-    let count = (entry.parameter_lines as usize).clamp(1, lines.len() - first);
+/// Those of `lines` Parameter lines that the directory names.
+fn told_range(entry: &DirectoryEntry, lines: usize) -> Option<Range<usize>> {
+    let first = (entry.parameters as usize).checked_sub(1).filter(|first| *first < lines)?;
+    let count = (entry.parameter_lines as usize).clamp(1, lines - first);
     Some(first..first + count)
 }
 
 /// By the directory entry that lines point back to, the first run of such lines.
-fn runs(lines: &[Line<'_>]) -> std::collections::HashMap<u32, Range<usize>> {
+fn runs(backs: &[[u8; BACK_WIDTH]]) -> std::collections::HashMap<u32, Range<usize>> {
     let mut out = std::collections::HashMap::new();
-    let back = |line: &Line<'_>| -> Option<u32> {
-        std::str::from_utf8(&line.text[PARAMETER_WIDTH..]).ok()?.trim().parse().ok()
-    };
+    let number = |columns: &[u8]| -> Option<u32> { std::str::from_utf8(columns).ok()?.trim().parse().ok() };
     let mut at = 0;
-    while at < lines.len() {
-        let entry = back(&lines[at]);
-        let length = lines[at..].iter().take_while(|line| back(line) == entry).count();
+    while at < backs.len() {
+        let first = backs[at];
+        let entry = number(&first);
+        let same = |back: &&[u8; BACK_WIDTH]| **back == first || number(*back) == entry;
+        let length = backs[at..].iter().take_while(same).count();
         if let Some(entry) = entry {
             out.entry(entry).or_insert(at..at + length);
         }
@@ -190,7 +186,7 @@ fn runs(lines: &[Line<'_>]) -> std::collections::HashMap<u32, Range<usize>> {
 fn check_terminate(sheet: &Sheet, errors: &mut Vec<SyntaxError>) {
     let Some(end) = sheet.of(Section::Terminate).next() else {
         let message = "the file ends without a Terminate section; it may be cut off".to_owned();
-        let line = sheet.last_number();
+        let line = sheet.last().map_or(0, |last| last.1);
         errors.push(SyntaxError { line, section: Section::Terminate, entry: None, message });
         return;
     };

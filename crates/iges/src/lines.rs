@@ -51,7 +51,13 @@ impl fmt::Display for Section {
 /// Columns before the section letter.
 pub(crate) const WIDTH: usize = 72;
 
-/// A line that belongs to a section.
+/// Columns of a Parameter line that hold parameters; the others point back to the directory.
+pub(crate) const PARAMETER_WIDTH: usize = 64;
+
+/// Columns of the pointer back.
+pub(crate) const BACK_WIDTH: usize = WIDTH - PARAMETER_WIDTH;
+
+/// A line of a section other than Parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Line<'a> {
     pub section: Section,
@@ -61,11 +67,17 @@ pub(crate) struct Line<'a> {
     pub number: usize,
 }
 
-/// The lines of a file, each with 72 columns.
+/// The lines of a file, each with 72 columns. Those of the Parameter section, which are nearly all, are kept as they are
+/// needed: their parameters as one text, and what they point back to.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sheet {
     text: Vec<u8>,
     lines: Vec<(Section, usize)>,
+    /// [`PARAMETER_WIDTH`] columns of each Parameter line.
+    pub parameters: Vec<u8>,
+    /// The other columns of each.
+    pub backs: Vec<[u8; BACK_WIDTH]>,
+    last: Option<(Section, usize)>,
     /// The numbers of lines that belong to no section.
     pub strays: Vec<usize>,
 }
@@ -73,31 +85,50 @@ pub(crate) struct Sheet {
 impl Sheet {
     /// Adds a line, of which no more than 72 columns count.
     pub fn push(&mut self, section: Section, text: &[u8], number: usize) {
-        let start = self.text.len();
-        self.text.extend_from_slice(&text[..text.len().min(WIDTH)]);
-        self.text.resize(start + WIDTH, b' ');
-        self.lines.push((section, number));
+        let text = &text[..text.len().min(WIDTH)];
+        self.last = Some((section, number));
+        if section != Section::Parameter {
+            append(&mut self.text, text, WIDTH);
+            self.lines.push((section, number));
+            return;
+        }
+        let (parameters, back) = text.split_at(text.len().min(PARAMETER_WIDTH));
+        append(&mut self.parameters, parameters, PARAMETER_WIDTH);
+        let mut padded = [b' '; BACK_WIDTH];
+        padded[..back.len()].copy_from_slice(back);
+        self.backs.push(padded);
     }
 
-    /// All lines, in order.
+    /// All lines but those of the Parameter section, in order.
     pub fn lines(&self) -> impl ExactSizeIterator<Item = Line<'_>> {
         let texts = self.text.chunks_exact(WIDTH);
         self.lines.iter().zip(texts).map(|(&(section, number), text)| Line { section, text, number })
     }
 
-    /// The lines of a section.
+    /// The lines of a section other than Parameter.
     pub fn of(&self, section: Section) -> impl Iterator<Item = Line<'_>> {
         self.lines().filter(move |line| line.section == section)
     }
 
     /// How many lines a section has.
     pub fn count(&self, section: Section) -> usize {
-        self.lines.iter().filter(|line| line.0 == section).count()
+        match section {
+            Section::Parameter => self.backs.len(),
+            _ => self.lines.iter().filter(|line| line.0 == section).count(),
+        }
     }
 
-    /// The number of the last line; 0 of none.
-    pub fn last_number(&self) -> usize {
-        self.lines.last().map_or(0, |line| line.1)
+    /// The section and the number of the last line.
+    pub fn last(&self) -> Option<(Section, usize)> {
+        self.last
+    }
+}
+
+/// Appends `text`, with blanks to fill `width` columns.
+fn append(to: &mut Vec<u8>, text: &[u8], width: usize) {
+    to.extend_from_slice(text);
+    if text.len() < width {
+        to.resize(to.len() + width - text.len(), b' ');
     }
 }
 
@@ -110,7 +141,8 @@ pub(crate) fn lines(bytes: &[u8]) -> Result<Sheet, ReadError> {
         return Err(ReadError::Binary);
     }
     let mut out = Sheet::default();
-    out.text.reserve(bytes.len());
+    out.parameters.reserve(bytes.len() / 81 * PARAMETER_WIDTH);
+    out.backs.reserve(bytes.len() / 81);
     let mut expanded = Vec::new();
     for (index, raw) in split(bytes).enumerate() {
         let number = index + 1;
@@ -118,12 +150,12 @@ pub(crate) fn lines(bytes: &[u8]) -> Result<Sheet, ReadError> {
             continue;
         }
         let text = without_tabs(raw, &mut expanded);
-        let last = out.lines.last().map(|line| line.0);
+        let last = out.last.map(|last| last.0);
         match letter_column(text, last).and_then(|at| Some((Section::of(*text.get(at)?)?, at))) {
             Some((section, at)) => out.push(section, &text[..at], number),
             None => out.strays.push(number),
         }
-        if out.lines.is_empty() && out.strays.len() > 50 {
+        if out.last.is_none() && out.strays.len() > 50 {
             break;
         }
     }
@@ -131,7 +163,7 @@ pub(crate) fn lines(bytes: &[u8]) -> Result<Sheet, ReadError> {
     if out.lines.iter().any(is_data) {
         return Ok(out);
     }
-    Err(ReadError::NotIges(if out.lines.is_empty() {
+    Err(ReadError::NotIges(if out.last.is_none() {
         "no line has a section letter in column 73"
     } else {
         "it has no Directory section"
@@ -241,16 +273,20 @@ mod tests {
         let long =
             format!("{:<73}P      1", "116,0.,0.,0.;                                                   1");
         let text = [record("", 's', 1), record("", 'g', 1), tabbed, long].join("\n");
-        let expected =
-            [(Section::Start, 1), (Section::Global, 2), (Section::Directory, 3), (Section::Parameter, 4)];
+        let expected = [(Section::Start, 1), (Section::Global, 2), (Section::Directory, 3)];
         assert_eq!(sections(&text), expected);
+        let sheet = lines(text.as_bytes()).expect("lines");
+        assert_eq!(sheet.last(), Some((Section::Parameter, 4)));
+        assert_eq!(sheet.parameters, format!("{:<64}", "116,0.,0.,0.;").as_bytes());
+        assert_eq!(sheet.backs, [*b"1       "]);
     }
 
     #[test]
     fn what_stands_after_column_80_is_nobodys() {
         let line = record("116,0.,0.,0.;", 'P', 1) + "  written by a card reader 7";
         let text = [record("", 'S', 1), record("", 'D', 1), line].join("\n");
-        assert_eq!(sections(&text)[2], (Section::Parameter, 3));
+        let sheet = lines(text.as_bytes()).expect("lines");
+        assert_eq!(sheet.last(), Some((Section::Parameter, 3)));
     }
 
     #[test]

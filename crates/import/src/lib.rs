@@ -44,7 +44,7 @@ use std::path::Path;
 use trimloop_brep::Model;
 use trimloop_geom::TSpline;
 use trimloop_iges::IgesFile;
-use trimloop_part21::{Exchange, ReadError, ReadOptions};
+use trimloop_part21::{Exchange, FileBytes, ReadError, ReadOptions};
 
 pub use self::sniff::Format;
 
@@ -93,20 +93,15 @@ pub enum Parsed {
 impl Parsed {
     /// Reads a CAD file, whatever its format (by content, not by name).
     pub fn read(path: &Path, options: &ImportOptions) -> Result<Self, ImportError> {
-        let format = Format::of_file(path).map_err(ReadError::Io)?;
-        if format != Format::Step {
-            let size = std::fs::metadata(path).map_err(ReadError::Io)?.len();
-            if size > options.max_unpacked_bytes {
-                return Err(ReadError::TooLarge { cap: options.max_unpacked_bytes }.into());
-            }
-            let bytes = std::fs::read(path).map_err(ReadError::Io)?;
-            return match format {
-                Format::TSpline => Ok(Self::TSpline(TSpline::parse(&String::from_utf8_lossy(&bytes))?)),
-                _ => Ok(Self::Iges(IgesFile::parse(&bytes)?)),
-            };
-        }
         let read = ReadOptions { max_bytes: options.max_unpacked_bytes, ..ReadOptions::default() };
-        Ok(Self::Step(Exchange::read(path, &read)?))
+        Ok(match Format::of_file(path).map_err(ReadError::Io)? {
+            Format::Step => Self::Step(Exchange::read(path, &read)?),
+            Format::Iges => Self::Iges(IgesFile::parse(&FileBytes::read(path, &read)?)?),
+            Format::TSpline => {
+                let bytes = FileBytes::read(path, &read)?;
+                Self::TSpline(TSpline::parse(&String::from_utf8_lossy(&bytes))?)
+            }
+        })
     }
 
     /// What it means.

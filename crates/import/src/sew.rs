@@ -120,21 +120,18 @@ fn coincident_vertices(part: &Part, free: &[EdgeId], reach: f64) -> FxHashMap<Ve
         free.iter().flat_map(|&id| [part.edges[id as usize].start, part.edges[id as usize].end]).collect();
     ends.sort_unstable();
     ends.dedup();
-    let cell = |point: DVec3| (point / (4.0 * reach)).floor().to_array().map(|x| x as i64);
+    let cell = |point: DVec3| (point / (8.0 * reach)).floor().to_array().map(|x| x as i64);
     let mut grid: FxHashMap<[i64; 3], Vec<VertexId>> = FxHashMap::default();
     let mut first = FxHashMap::default();
     for id in ends {
         let point = part.vertices[id as usize].point;
-        let [x, y, z] = cell(point);
-        let near = (-1..=1).flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [i, j, k])));
-        let found = near.filter_map(|[i, j, k]| {
-            grid.get(&[x.saturating_add(i), y.saturating_add(j), z.saturating_add(k)])
-        });
-        let found =
-            found.flatten().find(|&&other| part.vertices[other as usize].point.distance(point) <= reach);
-        match found {
+        let (low, high) = (cell(point - reach), cell(point + reach));
+        let near = (low[0]..=high[0])
+            .flat_map(|x| (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| [x, y, z])));
+        let mut known = near.filter_map(|cell| grid.get(&cell)).flatten();
+        match known.find(|&&other| part.vertices[other as usize].point.distance(point) <= reach) {
             Some(&other) => drop(first.insert(id, other)),
-            None => grid.entry([x, y, z]).or_default().push(id),
+            None => grid.entry(cell(point)).or_default().push(id),
         }
     }
     for &id in free {

@@ -5,6 +5,7 @@ use rustc_hash::FxHashMap;
 use trimloop_brep::{Coedge, Edge, EdgeId, FaceId, Part, Vertex, VertexId};
 use trimloop_geom::{Aabb, Interval};
 
+use crate::parallel::map_each;
 use crate::sew::{near_parameter, share_at};
 
 /// Cuts the edges among `free` on which ends of others lie within `reach`, millimetres; gives how many cuts were made.
@@ -12,13 +13,11 @@ pub(crate) fn split_edges(part: &mut Part, faces: &[FaceId], free: &[EdgeId], re
     let ends = Ends::new(part, free);
     let mut parts: FxHashMap<EdgeId, Vec<EdgeId>> = FxHashMap::default();
     let mut cuts = 0;
-    for &id in free {
-        let points = cut_points(part, id, &ends, reach);
-        if !points.is_empty() {
-            cuts += points.len();
-            let pieces = cut(part, id, &points);
-            parts.insert(id, pieces);
-        }
+    let points = map_each(free, |&id| cut_points(part, id, &ends, reach));
+    for (&id, points) in free.iter().zip(points).filter(|(_, points)| !points.is_empty()) {
+        cuts += points.len();
+        let pieces = cut(part, id, &points);
+        parts.insert(id, pieces);
     }
     if cuts > 0 {
         for &face in faces {

@@ -64,4 +64,5 @@ pub use instance::Instance;
 pub use options::ReadOptions;
 pub use param::{Args, Param};
 pub use position::Position;
+pub use source::FileBytes;
 pub use text::Text;

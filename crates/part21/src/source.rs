@@ -2,6 +2,31 @@
 
 use std::fmt;
 use std::ops::Deref;
+use std::path::Path;
+
+use crate::{ReadError, ReadOptions, open};
+
+/// The bytes of a file as they lie there, mapped where possible (feature `mmap`), else in memory.
+#[derive(Debug)]
+pub struct FileBytes(Source);
+
+impl FileBytes {
+    /// Those of a file no longer than [`ReadOptions::max_bytes`]. A mapped file must not be cut short while they live.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or is longer.
+    pub fn read(path: &Path, options: &ReadOptions) -> Result<Self, ReadError> {
+        open::open(path, options).map(Self)
+    }
+}
+
+impl Deref for FileBytes {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        &self.0
+    }
+}
 
 /// The bytes of a text, in memory or mapped.
 pub(crate) enum Source {

@@ -63,6 +63,13 @@ struct Ground {
     free_form: bool,
 }
 
+impl Ground {
+    /// Index of the singular point that `point` is.
+    fn singular_point(&self, point: DVec3, snap: f64) -> Option<u8> {
+        self.singularities.iter().position(|s| s.point.distance(point) <= snap).map(|index| index as u8)
+    }
+}
+
 /// Samples all edges of a part within `tolerance`: of the curve itself, and of the turn of the normals of the faces on
 /// both sides.
 pub fn sample_edges(part: &Part, tolerance: Tolerance) -> EdgeSamples {
@@ -140,12 +147,19 @@ struct Polyline {
     sides: Vec<FaceId>,
 }
 
-#[derive(Clone, Default)]
-struct Sample {
+/// A point of the curve, before anything is known of the surfaces beside it.
+#[derive(Clone, Copy)]
+struct CurvePoint {
     t: f64,
     point: DVec3,
     /// How far the curve is from the chord that ends here.
     sag: f64,
+}
+
+#[derive(Clone, Default)]
+struct Sample {
+    t: f64,
+    point: DVec3,
     /// One per ground; nearly always two.
     sides: SmallVec<[Foot; 2]>,
 }
@@ -153,6 +167,7 @@ struct Sample {
 #[derive(Clone, Copy, Default)]
 struct Foot {
     uv: DVec2,
+    on_surface: DVec3,
     normal: Option<DVec3>,
     singular: Option<u8>,
     distance: f64,
@@ -217,8 +232,26 @@ const MAX_DEPTH: u32 = 14;
 
 impl Sampler<'_> {
     fn run(&self) -> Polyline {
+        let line = self.line();
+        let kept = self.thinned(&line);
+        let mut samples: Vec<Sample> = Vec::with_capacity(kept.len() * 2);
+        let mut passed = 0;
+        for at in kept {
+            let near = samples.last().cloned();
+            let next = self.sample(&line[at], near.as_ref(), None);
+            if let Some(near) = near {
+                self.keep_to_surfaces(&near, &next, &line[passed + 1..at], 0, &mut samples);
+            }
+            samples.push(next);
+            passed = at;
+        }
+        Polyline { samples, sides: self.grounds.iter().map(|g| g.face).collect() }
+    }
+
+    /// The curve by itself: points whose chords keep the tolerance.
+    fn line(&self) -> Vec<CurvePoint> {
         let starts = self.start_parameters();
-        let mut samples: Vec<Sample> = Vec::with_capacity(starts.len() * 2);
+        let mut line: Vec<CurvePoint> = Vec::with_capacity(starts.len() * 2);
         let last = starts.len() - 1;
         for (i, &t) in starts.iter().enumerate() {
             let point = match i {
@@ -226,15 +259,13 @@ impl Sampler<'_> {
                 i if i == last => self.ends[1],
                 _ => self.curve.point(t),
             };
-            let near = samples.last().cloned();
-            let mut next = self.sample(t, point, near.as_ref(), None);
-            if let Some(near) = near {
-                next.sag = self.fill(&near, &next, None, 0, &mut samples);
+            let mut next = CurvePoint { t, point, sag: 0.0 };
+            if let Some(&near) = line.last() {
+                next.sag = self.fill(near, next, None, 0, &mut line);
             }
-            samples.push(next);
+            line.push(next);
         }
-        let samples = self.thinned(samples);
-        Polyline { samples, sides: self.grounds.iter().map(|g| g.face).collect() }
+        line
     }
 
     /// Parameters that every polyline of this edge has, from the edge's start to its end.
@@ -302,54 +333,56 @@ impl Sampler<'_> {
         }
     }
 
-    /// Drops samples that a curve of many short spans has for its knots' sake alone.
-    fn thinned(&self, samples: Vec<Sample>) -> Vec<Sample> {
-        if samples.len() < 6
+    /// What remains of a line when points are dropped that a curve of many short spans has for its knots' sake alone.
+    fn thinned(&self, line: &[CurvePoint]) -> Vec<usize> {
+        if line.len() < 6
             || matches!(self.curve, Curve::Line { .. } | Curve::Circle { .. } | Curve::Ellipse { .. })
         {
-            return samples;
+            return (0..line.len()).collect();
         }
         let mut kept = vec![0];
         let mut at = 0;
-        let last = samples.len() - 1;
+        let last = line.len() - 1;
         let most = last / if self.closed { 4 } else { 1 };
         while at < last {
             let reach =
-                (at + 2..=last.min(at + most.min(64))).take_while(|&to| self.spans(&samples[at..=to])).last();
+                (at + 2..=last.min(at + most.min(64))).take_while(|&to| self.spans(&line[at..=to])).last();
             at = reach.unwrap_or(at + 1);
             kept.push(at);
         }
-        kept.into_iter().map(|i| samples[i].clone()).collect()
+        kept
     }
 
-    /// Whether one chord may stand for all of `run`, with what lies between its samples.
-    fn spans(&self, run: &[Sample]) -> bool {
+    /// Whether one chord may stand for all of `run`, with what lies between its points.
+    fn spans(&self, run: &[CurvePoint]) -> bool {
         let (Some(a), Some(b)) = (run.first(), run.last()) else { return false };
         let Some(along) = (b.point - a.point).try_normalize() else { return false };
         let inner = &run[1..run.len() - 1];
-        let off = |s: &Sample| (s.point - a.point).reject_from_normalized(along).length();
-        let near = |pair: &[Sample]| {
+        let off = |p: &CurvePoint| (p.point - a.point).reject_from_normalized(along).length();
+        let near = |pair: &[CurvePoint]| {
             let off = off(&pair[0]).max(off(&pair[1]));
             off <= self.tolerance.linear_mm * 0.5 && off + pair[1].sag <= self.tolerance.linear_mm
         };
-        let regular = |s: &Sample| s.sides.iter().all(|f| f.singular.is_none());
-        let straight = |pair: &[Sample]| {
+        let straight = |pair: &[CurvePoint]| {
             !turns_by_more(pair[1].point - pair[0].point, along, self.tolerance.angular_rad * 0.45)
         };
-        inner.iter().all(regular)
+        !inner.iter().any(|p| self.is_singular(p.point))
             && run.windows(2).all(near)
             && run.windows(2).all(straight)
-            && !run[1..].iter().any(|s| {
-                a.sides.iter().zip(&s.sides).zip(self.grounds).any(|((fa, fs), g)| self.turns(g, fa, fs))
-            })
     }
 
-    fn sample(&self, t: f64, point: DVec3, near: Option<&Sample>, other: Option<&Sample>) -> Sample {
+    /// Whether a point is a singular one of a surface.
+    fn is_singular(&self, point: DVec3) -> bool {
+        self.grounds.iter().any(|g| g.singular_point(point, self.snap).is_some())
+    }
+
+    fn sample(&self, at: &CurvePoint, near: Option<&Sample>, other: Option<&Sample>) -> Sample {
+        let &CurvePoint { t, point, .. } = at;
         let sides = self.grounds.iter().enumerate().map(|(k, g)| {
             let hint = self.hint(g, k, t, point, near, other);
             self.foot(g, point, hint)
         });
-        Sample { t, point, sag: 0.0, sides: sides.collect() }
+        Sample { t, point, sides: sides.collect() }
     }
 
     /// Where to look for the foot of a sample; the foot itself, where that is known.
@@ -392,50 +425,59 @@ impl Sampler<'_> {
     }
 
     fn foot(&self, ground: &Ground, point: DVec3, hint: Hint) -> Foot {
-        let singular = ground.singularities.iter().position(|s| s.point.distance(point) <= self.snap);
-        let foot = match hint {
-            Hint::Foot(foot) => foot,
+        let singular = ground.singular_point(point, self.snap);
+        let (foot, normal) = match hint {
+            Hint::Foot(foot) => (foot, None),
             Hint::Near(uv) => self.project(ground, point, Some(uv)),
             Hint::None => self.project(ground, point, None),
         };
-        let normal = (ground.curved && singular.is_none()).then(|| ground.surface.normal(foot.uv)).flatten();
-        Foot { uv: foot.uv, normal, singular: singular.map(|s| s as u8), distance: foot.distance }
+        let wanted = ground.curved && singular.is_none();
+        let normal = if wanted { normal.or_else(|| ground.surface.normal(foot.uv)) } else { None };
+        Foot { uv: foot.uv, on_surface: foot.point, normal, singular, distance: foot.distance }
     }
 
-    /// The foot from `hint`; searched anew where that is too far away to be the right one.
-    fn project(&self, ground: &Ground, point: DVec3, hint: Option<DVec2>) -> SurfacePoint {
-        let foot = ground.surface.project(point, hint);
-        if hint.is_none() || foot.distance <= self.tolerance.linear_mm * 0.1 {
-            return foot;
+    /// The foot from `hint`, and the normal there; searched anew where that is too far away to be the right one.
+    fn project(&self, ground: &Ground, point: DVec3, hint: Option<DVec2>) -> (SurfacePoint, Option<DVec3>) {
+        let enough = self.tolerance.linear_mm * 0.1;
+        let found = ground.surface.project_with_normal(point, hint, enough);
+        if hint.is_none() || found.0.distance <= enough {
+            return found;
         }
-        let other = ground.surface.project(point, None);
-        if other.distance < foot.distance * 0.5 { other } else { foot }
+        let other = ground.surface.project_with_normal(point, None, 0.0);
+        if other.0.distance < found.0.distance * 0.5 { other } else { found }
     }
 
-    /// Adds the samples strictly between `a` and `b`. Gives how far the curve is from the chord that ends at `b`.
+    /// Adds the points strictly between `a` and `b`. Gives how far the curve is from the chord that ends at `b`.
     /// `middle` is the curve's point halfway, where that is known.
-    fn fill(&self, a: &Sample, b: &Sample, middle: Option<DVec3>, depth: u32, out: &mut Vec<Sample>) -> f64 {
+    fn fill(
+        &self,
+        a: CurvePoint,
+        b: CurvePoint,
+        middle: Option<DVec3>,
+        depth: u32,
+        out: &mut Vec<CurvePoint>,
+    ) -> f64 {
         if depth >= MAX_DEPTH || !(a.t - b.t).abs().is_normal() {
             return 0.0;
         }
         let t = (a.t + b.t) * 0.5;
         let point = middle.unwrap_or_else(|| self.curve.point(t));
         let mut quarters = None;
-        if let Some(sag) = self.accepted(a, b, point, &mut quarters) {
+        if let Some(sag) = self.accepted(&a, &b, point, &mut quarters) {
             return sag;
         }
-        let mut middle = self.sample(t, point, Some(a), Some(b));
-        middle.sag = self.fill(a, &middle, quarters.map(|q| q[0]), depth + 1, out);
-        out.push(middle.clone());
-        self.fill(&middle, b, quarters.map(|q| q[1]), depth + 1, out)
+        let mut middle = CurvePoint { t, point, sag: 0.0 };
+        middle.sag = self.fill(a, middle, quarters.map(|q| q[0]), depth + 1, out);
+        out.push(middle);
+        self.fill(middle, b, quarters.map(|q| q[1]), depth + 1, out)
     }
 
-    /// How far the curve is from its chord; `None` where that, or the turn of the faces, is too much. Gives the curve's
+    /// How far the curve is from its chord; `None` where that is too much, or the curve turns too far. Gives the curve's
     /// points at the `quarters` where it has asked for them.
     fn accepted(
         &self,
-        a: &Sample,
-        b: &Sample,
+        a: &CurvePoint,
+        b: &CurvePoint,
         middle: DVec3,
         quarters: &mut Option<[DVec3; 2]>,
     ) -> Option<f64> {
@@ -460,33 +502,64 @@ impl Sampler<'_> {
             }
             _ => off_chord(a.point, chord, middle).length(),
         };
-        if sag > self.tolerance.linear_mm {
-            return None;
+        (sag <= self.tolerance.linear_mm).then_some(sag)
+    }
+
+    /// Adds the samples strictly between `a` and `b` that the surfaces beside the edge ask for, first of those that the
+    /// line has `between` them, then of others.
+    fn keep_to_surfaces(
+        &self,
+        a: &Sample,
+        b: &Sample,
+        between: &[CurvePoint],
+        depth: u32,
+        out: &mut Vec<Sample>,
+    ) {
+        if depth >= MAX_DEPTH
+            || !(a.t - b.t).abs().is_normal()
+            || a.point.distance(b.point) <= self.tolerance.shortest_chord_mm()
+        {
+            return;
         }
         let mut sides = a.sides.iter().zip(&b.sides).zip(self.grounds);
-        let coarse = sides.any(|((fa, fb), g)| self.turns(g, fa, fb) || self.sinks(g, a, b, [fa, fb]));
-        (!coarse).then_some(sag)
+        let passes = !between.is_empty();
+        if !sides.any(|((fa, fb), g)| self.turns(g, fa, fb) || self.sinks(g, [fa, fb], passes)) {
+            return;
+        }
+        let (before, rest) = between.split_at(between.len() / 2);
+        let (middle, after) = match rest.split_first() {
+            Some((&middle, after)) => (middle, after),
+            None => {
+                let t = (a.t + b.t) * 0.5;
+                (CurvePoint { t, point: self.curve.point(t), sag: 0.0 }, rest)
+            }
+        };
+        let middle = self.sample(&middle, Some(a), Some(b));
+        self.keep_to_surfaces(a, &middle, before, depth + 1, out);
+        out.push(middle.clone());
+        self.keep_to_surfaces(&middle, b, after, depth + 1, out);
     }
 
     /// Whether a chord sinks into a free-form surface (or rises from it) between its ends, which the curve need not do
-    /// where it is only near the surface.
-    fn sinks(&self, ground: &Ground, a: &Sample, b: &Sample, [fa, fb]: [&Foot; 2]) -> bool {
+    /// where it is only near the surface. A chord that `passes` points of the line may also turn there and back.
+    fn sinks(&self, ground: &Ground, [fa, fb]: [&Foot; 2], passes: bool) -> bool {
         if !ground.free_form || fa.singular.is_some() || fb.singular.is_some() {
             return false;
         }
         let (from, to) = (fa.uv, self.nearest_image(ground, fb.uv, fa.uv));
-        let lifted = [a.point - ground.surface.point(fa.uv), b.point - ground.surface.point(fb.uv)];
-        let chord = b.point - lifted[1] - (a.point - lifted[0]);
+        let chord = fb.on_surface - fa.on_surface;
         let above = |share: f64| {
             let d = ground.surface.first_derivatives(from.lerp(to, share));
             let normal = d.du.cross(d.dv).try_normalize().unwrap_or_default();
-            normal.dot(d.point - (a.point - lifted[0] + chord * share))
+            (normal.dot(d.point - (fa.on_surface + chord * share)), normal)
         };
-        let middle = above(0.5);
+        let (middle, normal) = above(0.5);
         let normals = [fa, fb].map(|foot| foot.normal.unwrap_or_default());
+        let most = self.tolerance.angular_rad * 1.001;
         middle.abs() > self.tolerance.linear_mm
+            || passes && normals.iter().any(|&end| end != DVec3::ZERO && turns_by_more(end, normal, most))
             || doubtful_quarters(chord, normals, middle, self.tolerance.linear_mm)
-                .any(|share| above(share).abs() > self.tolerance.linear_mm)
+                .any(|share| above(share).0.abs() > self.tolerance.linear_mm)
     }
 
     /// Whether the surface turns by more than `most` only at one of two feet, where it has a crease.

@@ -59,9 +59,58 @@ pub fn find_span(knots: &[f64], degree: usize, count: usize, t: f64) -> usize {
 /// The `degree + 1` basis functions that do not vanish at `t` in the domain of `count` control points, and the number of
 /// the first one (Piegl & Tiller A2.2).
 pub fn basis_functions(knots: &[f64], degree: usize, count: usize, t: f64) -> (usize, Vec<f64>) {
-    let basis = Basis::<Vec<f64>>::new::<0, 0>(knots, degree, count, t);
+    let basis = Basis::<Vec<f64>>::new::<0, 0>(&Knots::of(knots, degree, count), t);
     let [values, ..] = basis.rows;
     (basis.first, values)
+}
+
+/// A knot vector as basis functions are made from it.
+#[derive(Clone, Copy)]
+pub(crate) struct Knots<'a> {
+    values: &'a [f64],
+    degree: usize,
+    /// The number of control points.
+    count: usize,
+    /// Of `reciprocals`; empty where there are none.
+    reciprocals: &'a [f64],
+}
+
+/// Up to this degree, dividing once for every knot pays.
+const MOST_TABULATED: usize = 7;
+
+/// Per knot i the numbers 1 / (knots[i + j] - knots[i]) for j in 1..=degree, by which basis functions are multiplied
+/// where they would be divided by the differences: that takes most of the time otherwise. Those of empty spans are
+/// never used. None at all for high degrees.
+pub(super) fn reciprocals(knots: &[f64], degree: usize) -> Vec<f64> {
+    if degree > MOST_TABULATED {
+        return Vec::new();
+    }
+    let mut out = Vec::with_capacity(knots.len() * degree);
+    for i in 0..knots.len() {
+        out.extend((1..=degree).map(|j| knots.get(i + j).map_or(0.0, |knot| 1.0 / (knot - knots[i]))));
+    }
+    out
+}
+
+impl<'a> Knots<'a> {
+    /// Without reciprocals.
+    pub fn of(values: &'a [f64], degree: usize, count: usize) -> Self {
+        Self { values, degree, count, reciprocals: &[] }
+    }
+
+    /// With the `reciprocals` of the same knots.
+    pub fn with(values: &'a [f64], degree: usize, count: usize, reciprocals: &'a [f64]) -> Self {
+        Self { values, degree, count, reciprocals }
+    }
+}
+
+/// The knots around one span, from `span + 1 - degree` to `span + degree`. Each difference spans the non-empty one, so
+/// none is zero.
+struct Local<'a> {
+    values: &'a [f64],
+    degree: usize,
+    /// From the first of the knots on.
+    reciprocals: &'a [f64],
 }
 
 /// The `degree + 1` basis functions that do not vanish at one parameter, and their first two derivatives.
@@ -79,35 +128,37 @@ impl<R: Row> Basis<R> {
     /// The functions of degree p come from those of degree p - 1 (Piegl & Tiller A2.2), the derivatives from the
     /// functions of one and two degrees less (eq. 2.7).
     #[inline]
-    pub fn new<const ORDER: usize, const FIXED: usize>(
-        knots: &[f64],
-        degree: usize,
-        count: usize,
-        t: f64,
-    ) -> Self {
+    pub fn new<const ORDER: usize, const FIXED: usize>(knots: &Knots<'_>, t: f64) -> Self {
+        if knots.reciprocals.is_empty() {
+            return Self::unrolled::<ORDER, 0>(knots, t);
+        }
         // Directions of different degrees are unrolled one by one.
-        match if FIXED > 0 { FIXED } else { degree } {
-            1 => Self::unrolled::<ORDER, 1>(knots, degree, count, t),
-            2 => Self::unrolled::<ORDER, 2>(knots, degree, count, t),
-            3 => Self::unrolled::<ORDER, 3>(knots, degree, count, t),
-            4 => Self::unrolled::<ORDER, 4>(knots, degree, count, t),
-            5 => Self::unrolled::<ORDER, 5>(knots, degree, count, t),
-            6 => Self::unrolled::<ORDER, 6>(knots, degree, count, t),
-            7 => Self::unrolled::<ORDER, 7>(knots, degree, count, t),
-            _ => Self::unrolled::<ORDER, 0>(knots, degree, count, t),
+        match if FIXED > 0 { FIXED } else { knots.degree } {
+            1 => Self::unrolled::<ORDER, 1>(knots, t),
+            2 => Self::unrolled::<ORDER, 2>(knots, t),
+            3 => Self::unrolled::<ORDER, 3>(knots, t),
+            4 => Self::unrolled::<ORDER, 4>(knots, t),
+            5 => Self::unrolled::<ORDER, 5>(knots, t),
+            6 => Self::unrolled::<ORDER, 6>(knots, t),
+            7 => Self::unrolled::<ORDER, 7>(knots, t),
+            _ => Self::unrolled::<ORDER, 0>(knots, t),
         }
     }
 
+    /// `FIXED` is the degree where the reciprocals are known, else 0.
     #[inline]
-    fn unrolled<const ORDER: usize, const FIXED: usize>(
-        knots: &[f64],
-        degree: usize,
-        count: usize,
-        t: f64,
-    ) -> Self {
-        let degree = if FIXED > 0 { FIXED } else { degree };
-        let span = find_span(knots, degree, count, t);
-        let local = &knots[span + 1 - degree..span + 1 + degree];
+    fn unrolled<const ORDER: usize, const FIXED: usize>(knots: &Knots<'_>, t: f64) -> Self {
+        let degree = if FIXED > 0 { FIXED } else { knots.degree };
+        let span = find_span(knots.values, degree, knots.count, t);
+        let local = Local {
+            values: &knots.values[span + 1 - degree..span + 1 + degree],
+            degree,
+            reciprocals: if FIXED > 0 {
+                &knots.reciprocals[(span + 1 - degree) * degree..(span + 1) * degree]
+            } else {
+                &[]
+            },
+        };
         let mut rows = [R::zeros(degree + 1), R::zeros(degree + 1), R::zeros(degree + 1)];
         rows[0].as_mut()[0] = 1.0;
         for j in 1..=degree {
@@ -117,44 +168,56 @@ impl<R: Row> Basis<R> {
             if ORDER >= 1 && j == degree {
                 rows[1] = rows[0].clone();
             }
-            raise(local, degree, j, t, rows[0].as_mut());
+            local.raise::<FIXED>(j, t, rows[0].as_mut());
         }
         if ORDER >= 1 {
-            differentiate(local, degree, degree, rows[1].as_mut());
+            local.differentiate::<FIXED>(degree, rows[1].as_mut());
         }
         if ORDER >= 2 && degree >= 2 {
-            differentiate(local, degree, degree - 1, rows[2].as_mut());
-            differentiate(local, degree, degree, rows[2].as_mut());
+            local.differentiate::<FIXED>(degree - 1, rows[2].as_mut());
+            local.differentiate::<FIXED>(degree, rows[2].as_mut());
         }
         Self { first: span - degree, rows }
     }
 }
 
-/// From the functions of degree `to - 1` to those of degree `to`. `local` holds the knots `span + 1 - degree ..=
-/// span + degree`; each difference below spans the non-empty one, so none is zero.
-#[inline]
-fn raise(local: &[f64], degree: usize, to: usize, t: f64, values: &mut [f64]) {
-    let mut saved = 0.0;
-    for r in 0..to {
-        let right = local[degree + r];
-        let left = local[degree + r - to];
-        let share = values[r] / (right - left);
-        values[r] = saved + (right - t) * share;
-        saved = (t - left) * share;
+impl Local<'_> {
+    /// One over the difference of the knots `to` apart of which the upper one is the `r`-th after the span's start.
+    #[inline(always)]
+    fn reciprocal<const FIXED: usize>(&self, to: usize, r: usize) -> f64 {
+        if FIXED > 0 {
+            self.reciprocals[(FIXED + r - to) * FIXED + to - 1]
+        } else {
+            1.0 / (self.values[self.degree + r] - self.values[self.degree + r - to])
+        }
     }
-    values[to] = saved;
-}
 
-/// From the functions of degree `to - 1` (or some derivative of them) to the derivatives of those of degree `to`.
-#[inline]
-fn differentiate(local: &[f64], degree: usize, to: usize, values: &mut [f64]) {
-    let mut previous = 0.0;
-    for i in 0..to {
-        let slope = values[i] * to as f64 / (local[degree + i] - local[degree + i - to]);
-        values[i] = previous - slope;
-        previous = slope;
+    /// From the functions of degree `to - 1` to those of degree `to`.
+    #[inline(always)]
+    fn raise<const FIXED: usize>(&self, to: usize, t: f64, values: &mut [f64]) {
+        let degree = if FIXED > 0 { FIXED } else { self.degree };
+        let mut saved = 0.0;
+        for r in 0..to {
+            let right = self.values[degree + r];
+            let left = self.values[degree + r - to];
+            let share = values[r] * self.reciprocal::<FIXED>(to, r);
+            values[r] = saved + (right - t) * share;
+            saved = (t - left) * share;
+        }
+        values[to] = saved;
     }
-    values[to] = previous;
+
+    /// From the functions of degree `to - 1` (or some derivative of them) to the derivatives of those of degree `to`.
+    #[inline(always)]
+    fn differentiate<const FIXED: usize>(&self, to: usize, values: &mut [f64]) {
+        let mut previous = 0.0;
+        for i in 0..to {
+            let slope = values[i] * to as f64 * self.reciprocal::<FIXED>(to, i);
+            values[i] = previous - slope;
+            previous = slope;
+        }
+        values[to] = previous;
+    }
 }
 
 #[cfg(test)]
@@ -166,7 +229,7 @@ mod tests {
     fn published_basis_values() {
         let knots = [0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 5.0, 5.0];
         assert_eq!(find_span(&knots, 2, 8, 2.5), 4);
-        let basis = Basis::<[f64; 4]>::new::<2, 0>(&knots, 2, 8, 2.5);
+        let basis = Basis::<[f64; 4]>::new::<2, 0>(&Knots::of(&knots, 2, 8), 2.5);
         assert_eq!(basis.first, 2);
         assert_eq!(basis.rows[0][..3], [1.0 / 8.0, 6.0 / 8.0, 1.0 / 8.0]);
         assert_eq!(basis.rows[1][..3], [-0.5, 0.0, 0.5]);
@@ -181,7 +244,7 @@ mod tests {
             knots.extend(vec![1.0; degree + 1]);
             let count = knots.len() - degree - 1;
             for step in 0..=20 {
-                let basis = Basis::<Vec<f64>>::new::<2, 0>(&knots, degree, count, step as f64 / 20.0);
+                let basis = Basis::<Vec<f64>>::new::<2, 0>(&Knots::of(&knots, degree, count), step as f64 / 20.0);
                 let sums = basis.rows.each_ref().map(|row| row.iter().sum::<f64>());
                 let size = basis.rows.each_ref().map(|row| row.iter().map(|x| x.abs()).sum::<f64>());
                 assert!((sums[0] - 1.0).abs() < 1e-12, "degree {degree}: {sums:?}");

@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use glam::{DAffine3, DVec3, DVec4};
 
-use super::basis::{Basis, Row, by_degree};
+use super::basis::{self, Basis, Knots, Row, by_degree};
 use super::control::{self, Control, lift_all, lower};
 use super::{NurbsError, knots};
 use crate::period::{CLOSURE, wrap};
@@ -34,6 +34,8 @@ struct Data {
     /// `(w x, w y, w z, w)`; empty when polynomial.
     homogeneous: Vec<DVec4>,
     knots: Vec<f64>,
+    /// Of the differences of knots.
+    reciprocals: Vec<f64>,
     domain: Interval,
     size: f64,
     closed: bool,
@@ -58,9 +60,10 @@ impl NurbsCurve {
         control::check(&points, &mut weights)?;
         let homogeneous = if weights.is_empty() { Vec::new() } else { lift_all(&points, &weights) };
         let size = Aabb::from_points(points.iter().copied()).diagonal();
-        let samples = OnceLock::new();
+        let reciprocals = basis::reciprocals(&knots, degree);
+        let (closed, samples) = (false, OnceLock::new());
         let mut data =
-            Data { degree, points, weights, homogeneous, knots, domain, size, closed: false, samples };
+            Data { degree, points, weights, homogeneous, knots, reciprocals, domain, size, closed, samples };
         let ends = [domain.start, domain.end].map(|t| data.evaluate::<0>(t)[0]);
         data.closed = ends[0].distance(ends[1]) <= CLOSURE * size;
         Ok(Self(Arc::new(data)))
@@ -177,7 +180,8 @@ pub(crate) fn sample_parameters(knots: &[f64], per_span: usize, cap: usize) -> V
 impl Data {
     fn evaluate<const ORDER: usize>(&self, t: f64) -> [DVec3; 3] {
         by_degree!([self.degree, self.degree], R, P => {
-            let basis = Basis::<R>::new::<ORDER, P>(&self.knots, self.degree, self.points.len(), t);
+            let knots = Knots::with(&self.knots, self.degree, self.points.len(), &self.reciprocals);
+            let basis = Basis::<R>::new::<ORDER, P>(&knots, t);
             if self.homogeneous.is_empty() {
                 combine::<_, _, ORDER, P>(&basis, self.degree, &self.points)
             } else {

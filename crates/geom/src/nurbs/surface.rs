@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use glam::{DAffine3, DVec2, DVec3, DVec4};
 
-use super::basis::{Basis, Row, by_degree, find_span};
+use super::basis::{self, Basis, Knots, Row, by_degree, find_span};
 use super::closure::{self, Sides};
 use super::control::{self, Control, lift_all, lower};
 use super::{NurbsError, knots};
@@ -29,6 +29,8 @@ struct Data {
     /// `(w x, w y, w z, w)`; empty when polynomial.
     homogeneous: Vec<DVec4>,
     knots: [Vec<f64>; 2],
+    /// Of the differences of knots.
+    reciprocals: [Vec<f64>; 2],
     domain: [Interval; 2],
     size: f64,
     sides: Sides,
@@ -64,9 +66,21 @@ impl NurbsSurface {
         let homogeneous = if weights.is_empty() { Vec::new() } else { lift_all(&points, &weights) };
         let size = Aabb::from_points(points.iter().copied()).diagonal();
         let shape = [rows, columns];
+        let reciprocals = [0, 1].map(|d| basis::reciprocals(&knots[d], degrees[d]));
         let (sides, samples) = (Sides::default(), OnceLock::new());
-        let mut surface =
-            Data { degrees, shape, points, weights, homogeneous, knots, domain, size, sides, samples };
+        let mut surface = Data {
+            degrees,
+            shape,
+            points,
+            weights,
+            homogeneous,
+            knots,
+            reciprocals,
+            domain,
+            size,
+            sides,
+            samples,
+        };
         surface.sides = closure::sides(&surface.view());
         Ok(Self(Arc::new(surface)))
     }
@@ -200,15 +214,14 @@ impl NurbsSurface {
     ) -> Vec<DVec3> {
         let data = &*self.0;
         let [pu, pv] = if FIXED > 0 { [FIXED; 2] } else { data.degrees };
-        let [rows, columns] = data.shape;
-        let basis = |d: usize, degree, count, t| {
-            Basis::<R>::new::<0, FIXED>(&data.knots[d], degree, count, self.settle_along(d, t))
-        };
-        let across: Vec<Basis<R>> = vs.iter().map(|&v| basis(1, pv, columns, v)).collect();
+        let columns = data.shape[1];
+        let knots = [0, 1].map(|d| data.knots(d));
+        let basis = |d: usize, t| Basis::<R>::new::<0, FIXED>(&knots[d], self.settle_along(d, t));
+        let across: Vec<Basis<R>> = vs.iter().map(|&v| basis(1, v)).collect();
         let mut grid = Vec::with_capacity(us.len() * vs.len());
         let mut line = vec![P::ZERO; columns];
         for &u in us {
-            let along = basis(0, pu, rows, u);
+            let along = basis(0, u);
             line.fill(P::ZERO);
             for (i, &n) in along.rows[0].as_ref()[..=pu].iter().enumerate() {
                 let row = &points[(along.first + i) * columns..][..columns];
@@ -229,10 +242,8 @@ impl NurbsSurface {
     pub fn derivatives_grid(&self, us: &[f64], vs: &[f64]) -> Vec<Derivatives> {
         let data = &*self.0;
         by_degree!(data.degrees, R, P => {
-            let basis = |d: usize, t: f64| {
-                let t = self.settle_along(d, t);
-                Basis::<R>::new::<2, P>(&data.knots[d], data.degrees[d], data.shape[d], t)
-            };
+            let knots = [0, 1].map(|d| data.knots(d));
+            let basis = |d: usize, t: f64| Basis::<R>::new::<2, P>(&knots[d], self.settle_along(d, t));
             let columns = data.shape[1];
             let across: Vec<Basis<R>> = vs.iter().map(|&v| basis(1, v)).collect();
             let mut grid = Vec::with_capacity(us.len() * vs.len());
@@ -304,6 +315,10 @@ fn named([point, du, dv, duu, duv, dvv]: [DVec3; 6]) -> Derivatives {
 }
 
 impl Data {
+    fn knots(&self, d: usize) -> Knots<'_> {
+        Knots::with(&self.knots[d], self.degrees[d], self.shape[d], &self.reciprocals[d])
+    }
+
     fn view(&self) -> View<'_> {
         View {
             degrees: self.degrees,
@@ -311,6 +326,7 @@ impl Data {
             points: &self.points,
             homogeneous: &self.homogeneous,
             knots: [&self.knots[0], &self.knots[1]],
+            reciprocals: [&self.reciprocals[0], &self.reciprocals[1]],
             domain: self.domain,
             size: self.size,
         }
@@ -324,6 +340,7 @@ pub(super) struct View<'a> {
     points: &'a [DVec3],
     homogeneous: &'a [DVec4],
     pub knots: [&'a [f64]; 2],
+    reciprocals: [&'a [f64]; 2],
     pub domain: [Interval; 2],
     pub size: f64,
 }
@@ -337,9 +354,11 @@ impl View<'_> {
     #[inline]
     pub fn evaluate<const ORDER: usize>(&self, uv: DVec2) -> [DVec3; 6] {
         by_degree!(self.degrees, R, P => {
-            let [pu, pv] = self.degrees;
-            let bu = Basis::<R>::new::<ORDER, P>(self.knots[0], pu, self.shape[0], uv.x);
-            let bv = Basis::<R>::new::<ORDER, P>(self.knots[1], pv, self.shape[1], uv.y);
+            let [along, across] = [0, 1].map(|d| {
+                Knots::with(self.knots[d], self.degrees[d], self.shape[d], self.reciprocals[d])
+            });
+            let bu = Basis::<R>::new::<ORDER, P>(&along, uv.x);
+            let bv = Basis::<R>::new::<ORDER, P>(&across, uv.y);
             if self.homogeneous.is_empty() {
                 contract::<_, _, ORDER, P>(self.points, self.shape[1], &bu, &bv, self.degrees)
             } else {

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use super::surface_search::SurfaceSearch;
 use super::{SampleGrid, elementary, swept};
 use crate::period::{near, wrap};
-use crate::{Direction, Interval, Surface, SurfacePoint};
+use crate::{Derivatives, Direction, Interval, Surface, SurfacePoint};
 
 impl Surface {
     /// The parameters of the point of the surface nearest to `point`: closed form for elementary surfaces; for the
@@ -17,6 +17,33 @@ impl Surface {
     /// Where a whole line of parameters gives the same point (a pole, an apex, a point on the axis of a cylinder), the
     /// hint's are kept.
     pub fn project(&self, point: DVec3, hint: Option<DVec2>) -> SurfacePoint {
+        self.project_with_value(point, hint, 0.0).0
+    }
+
+    /// [`Surface::project`], and the unit normal at the foot as [`Surface::normal`] gives it. On splines, where the hint
+    /// leads to a foot that is no farther off than `enough`, none that is nearer is looked for elsewhere: points that
+    /// follow one another on a surface stay on the same side of a fold.
+    pub fn project_with_normal(
+        &self,
+        point: DVec3,
+        hint: Option<DVec2>,
+        enough: f64,
+    ) -> (SurfacePoint, Option<DVec3>) {
+        let (foot, value) = self.project_with_value(point, hint, if hint.is_some() { enough } else { 0.0 });
+        let normal = match value {
+            Some(value) => self.normal_of(value, foot.uv),
+            None => self.normal(foot.uv),
+        };
+        (foot, normal)
+    }
+
+    /// The foot, and the surface's derivatives there where the search has come by them.
+    fn project_with_value(
+        &self,
+        point: DVec3,
+        hint: Option<DVec2>,
+        enough: f64,
+    ) -> (SurfacePoint, Option<Derivatives>) {
         let hint = hint.filter(|h| h.is_finite());
         let uv = match self {
             Self::Extrusion { profile, direction } => {
@@ -28,21 +55,22 @@ impl Surface {
             Self::Nurbs(nurbs) => {
                 // Mostly the point lies on the surface, and the control points lead there without any sample.
                 let start = hint.unwrap_or_else(|| nurbs.near_control_point(point));
-                self.settle(self.search(point, start, || Cow::Borrowed(nurbs.samples())), hint)
+                let samples = || Cow::Borrowed(nurbs.samples());
+                let foot = SurfaceSearch::new(self).content_with(enough).nearest(point, Some(start), samples);
+                let uv = self.settle(foot.uv, hint);
+                let Some(value) = foot.value else { return (self.foot(uv, point), None) };
+                let distance = value.point.distance(point);
+                return (SurfacePoint { uv, point: value.point, distance }, Some(value));
             }
             Self::Offset { basis, distance } => self.project_offset(basis, *distance, point, hint),
             _ => elementary::project(self, point, hint).unwrap_or_default(),
         };
-        self.foot(uv, point)
+        (self.foot(uv, point), None)
     }
 
     fn foot(&self, uv: DVec2, target: DVec3) -> SurfacePoint {
         let point = self.point(uv);
         SurfacePoint { uv, point, distance: point.distance(target) }
-    }
-
-    fn search<'a>(&'a self, point: DVec3, start: DVec2, samples: impl Fn() -> Cow<'a, SampleGrid>) -> DVec2 {
-        SurfaceSearch::new(self).nearest(point, Some(start), samples).uv
     }
 
     /// The feet on an offset and on its basis share their parameters, if not always the same one is nearest: without a

@@ -18,6 +18,8 @@ pub(super) struct SurfaceSearch<'a> {
     margin: f64,
     /// The longest steps.
     reach: DVec2,
+    /// A proper foot from the hint is taken at once where it is no farther off than this.
+    enough: f64,
 }
 
 /// Where a descent ended.
@@ -29,11 +31,13 @@ pub(super) struct Foot {
     pub proper: bool,
     /// Whether the target is on the surface for all that matters: within 1e-6 of the surface's extent.
     pub on: bool,
+    /// The surface there, where it is known.
+    pub value: Option<Derivatives>,
 }
 
 impl Foot {
     fn at(uv: DVec2, distance2: f64) -> Self {
-        Self { uv, distance2, proper: false, on: false }
+        Self { uv, distance2, proper: false, on: false, value: None }
     }
 }
 
@@ -44,12 +48,17 @@ impl<'a> SurfaceSearch<'a> {
         let (domain, periods) = (surface.domain(), surface.periods());
         let limits = [0, 1].map(|d| if periods[d].is_some() { Interval::INFINITE } else { domain[d] });
         let reach = domain.map(|d| if d.is_finite() { 0.5 * d.length() } else { f64::INFINITY });
-        Self { surface, limits, reach: DVec2::from(reach), margin: 0.0 }
+        Self { surface, limits, reach: DVec2::from(reach), margin: 0.0, enough: 0.0 }
     }
 
     /// A search that uses samples of a surface `margin` away, over the same parameters.
     pub fn with_margin(self, margin: f64) -> Self {
         Self { margin, ..self }
+    }
+
+    /// A search that looks no further where the hint leads to within `enough` of the target.
+    pub fn content_with(self, enough: f64) -> Self {
+        Self { enough, ..self }
     }
 
     /// The local solution from the hint when it is proper and no part of the surface, judged by its samples, can be
@@ -63,7 +72,7 @@ impl<'a> SurfaceSearch<'a> {
         let nothing = Foot::at(DVec2::ZERO, f64::INFINITY);
         let hinted = hint.map(|hint| self.descend(target, hint)).filter(|foot| foot.proper);
         let best = hinted.unwrap_or(nothing);
-        if best.on {
+        if best.on || best.distance2 <= self.enough * self.enough {
             return best;
         }
         let found = self.improve(target, best, &samples());
@@ -169,7 +178,8 @@ impl<'a> SurfaceSearch<'a> {
         let residual = at.point.distance(target);
         let extent = (2.0 * self.reach.x * at.du.length()).hypot(2.0 * self.reach.y * at.dv.length());
         let on = residual <= 1e-12 * scale || (extent.is_finite() && residual <= 1e-6 * extent);
-        Foot { uv, distance2: residual * residual, proper: gradient.vanishes(residual, scale), on }
+        let proper = gradient.vanishes(residual, scale);
+        Foot { uv, distance2: residual * residual, proper, on, value: Some(at) }
     }
 
     /// The step, halved until the distance does not grow (beyond rounding), and how far it went in space. `None` where no

@@ -52,8 +52,20 @@ impl Surface {
         if !self.is_singular(&first) {
             return first.du.cross(first.dv).try_normalize();
         }
+        self.singular_normal(self.derivatives(uv), uv)
+    }
+
+    /// The general normal at `uv`, of which `value` are the point and the derivatives.
+    pub(crate) fn normal_of(&self, value: Derivatives, uv: DVec2) -> Option<DVec3> {
+        if !self.is_singular(&value) {
+            return value.du.cross(value.dv).try_normalize();
+        }
+        self.singular_normal(value, uv)
+    }
+
+    fn singular_normal(&self, value: Derivatives, uv: DVec2) -> Option<DVec3> {
         let inside = self.inside(uv);
-        self.limit_normal(self.derivatives(uv), inside).or_else(|| self.normal_inside(uv, inside))
+        self.limit_normal(value, inside).or_else(|| self.normal_inside(uv, inside))
     }
 
     /// Whether the first derivatives are too small or too parallel to give a normal.
