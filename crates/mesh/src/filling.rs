@@ -113,9 +113,9 @@ impl<'a> Filling<'a> {
         for ((corner, pole), &site) in corners.zip(&sites) {
             if site as usize == self.sites.len() {
                 let position = domain.point(corner, samples);
-                let normal = self.normal(corner.uv);
+                let (on_surface, normal) = self.point_and_normal(corner.uv);
                 let creased = self.creases.hold(corner.uv);
-                let lift = position - self.surface.point(corner.uv);
+                let lift = position - on_surface;
                 self.max_lift_mm = self.max_lift_mm.max(lift.length());
                 let lift = if lift.length() > self.tolerance.linear_mm { DVec3::ZERO } else { lift };
                 self.sites.push(SiteInSpace {
@@ -135,8 +135,7 @@ impl<'a> Filling<'a> {
     }
 
     fn place_inner(&mut self, uv: DVec2) {
-        let position = self.surface.point(uv);
-        let normal = self.normal(uv);
+        let (position, normal) = self.point_and_normal(uv);
         self.sites.push(SiteInSpace {
             uv,
             point: self.next_point,
@@ -147,6 +146,14 @@ impl<'a> Filling<'a> {
             creased: self.creases.hold(uv),
         });
         self.next_point += 1;
+    }
+
+    fn point_and_normal(&self, uv: DVec2) -> (DVec3, DVec3) {
+        if self.creases.within(uv) != uv {
+            return (self.surface.point(uv), self.normal(uv));
+        }
+        let (point, normal) = self.surface.point_and_normal(uv);
+        (point, normal.unwrap_or(DVec3::ZERO))
     }
 
     fn normal(&self, uv: DVec2) -> DVec3 {

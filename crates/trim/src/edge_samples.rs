@@ -227,6 +227,9 @@ enum Hint {
 /// Up to this share of their own length, points are the same.
 const EXACT: f64 = 1e-14;
 
+/// So many points of a line at most are replaced by one chord.
+const LONGEST_RUN: usize = 64;
+
 /// How often a chord may be halved.
 const MAX_DEPTH: u32 = 14;
 
@@ -261,11 +264,39 @@ impl Sampler<'_> {
             };
             let mut next = CurvePoint { t, point, sag: 0.0 };
             if let Some(&near) = line.last() {
-                next.sag = self.fill(near, next, None, 0, &mut line);
+                next.sag = match self.sag_bound(&near, &next) {
+                    Some(sag) => sag,
+                    None => self.halve(near, next, &mut line),
+                };
             }
             line.push(next);
         }
         line
+    }
+
+    /// More than the curve can be from its chord, where it is a polynomial between the chord's ends and that is enough to
+    /// know that it keeps well within the tolerance.
+    fn sag_bound(&self, a: &CurvePoint, b: &CurvePoint) -> Option<f64> {
+        let Curve::Nurbs(nurbs) = self.curve else { return None };
+        let step = (b.t - a.t).abs();
+        let bend = nurbs.second_derivative_bound((a.t + b.t) * 0.5)? * step * step;
+        let sag = bend / 8.0;
+        // The curve's velocity is the chord's on average, and changes by no more than `bend` (both over the step).
+        let slowest = a.point.distance(b.point) - bend;
+        let keeps = sag <= self.tolerance.linear_mm * 0.5 && bend <= slowest * self.tolerance.angular_rad * 0.5;
+        keeps.then_some(sag)
+    }
+
+    /// Adds the points strictly between `a` and `b`, the middle one at least where a curve may swing to both sides.
+    fn halve(&self, a: CurvePoint, b: CurvePoint, out: &mut Vec<CurvePoint>) -> f64 {
+        if self.closed || !matches!(self.curve, Curve::Nurbs(_)) {
+            return self.fill(a, b, None, 0, out);
+        }
+        let t = (a.t + b.t) * 0.5;
+        let mut middle = CurvePoint { t, point: self.curve.point(t), sag: 0.0 };
+        middle.sag = self.fill(a, middle, None, 0, out);
+        out.push(middle);
+        self.fill(middle, b, None, 0, out)
     }
 
     /// Parameters that every polyline of this edge has, from the edge's start to its end.
@@ -300,7 +331,7 @@ impl Sampler<'_> {
             Curve::Ellipse { major, minor, .. } => turns(major.max(*minor)).max(4),
             Curve::Nurbs(nurbs) if nurbs.degree() == 1 => 1,
             Curve::Nurbs(_) if self.closed => 4,
-            Curve::Nurbs(_) => 2,
+            Curve::Nurbs(_) => 1,
             _ => 4,
         }
     }
@@ -343,11 +374,10 @@ impl Sampler<'_> {
         let mut kept = vec![0];
         let mut at = 0;
         let last = line.len() - 1;
-        let most = last / if self.closed { 4 } else { 1 };
+        let most = (last / if self.closed { 4 } else { 1 }).min(LONGEST_RUN);
         while at < last {
-            let reach =
-                (at + 2..=last.min(at + most.min(64))).take_while(|&to| self.spans(&line[at..=to])).last();
-            at = reach.unwrap_or(at + 1);
+            let spans = |run: usize| at + run <= last && self.spans(&line[at..=at + run]);
+            at += longest(most, spans);
             kept.push(at);
         }
         kept
@@ -591,6 +621,26 @@ impl Sampler<'_> {
         };
         far(Direction::U) || far(Direction::V)
     }
+}
+
+/// The largest number that `holds`, up to `most`, by doubling and halving: of larger ones than one that does not hold, none
+/// does. One holds always.
+fn longest(most: usize, holds: impl Fn(usize) -> bool) -> usize {
+    let mut good = 1;
+    while good * 2 <= most && holds(good * 2) {
+        good *= 2;
+    }
+    let mut step = good / 2;
+    if good * 2 > most {
+        step = (most - good).next_power_of_two();
+    }
+    while step > 0 {
+        if good + step <= most && holds(good + step) {
+            good += step;
+        }
+        step /= 2;
+    }
+    good
 }
 
 /// Whether the angle between two vectors is more than `most`, radians.

@@ -76,7 +76,7 @@ pub(crate) struct Knots<'a> {
 }
 
 /// Up to this degree, dividing once for every knot pays.
-const MOST_TABULATED: usize = 7;
+const MOST_TABULATED: usize = 9;
 
 /// Per knot i the numbers 1 / (knots[i + j] - knots[i]) for j in 1..=degree, by which basis functions are multiplied
 /// where they would be divided by the differences: that takes most of the time otherwise. Those of empty spans are
@@ -141,6 +141,8 @@ impl<R: Row> Basis<R> {
             5 => Self::unrolled::<ORDER, 5>(knots, t),
             6 => Self::unrolled::<ORDER, 6>(knots, t),
             7 => Self::unrolled::<ORDER, 7>(knots, t),
+            8 => Self::unrolled::<ORDER, 8>(knots, t),
+            9 => Self::unrolled::<ORDER, 9>(knots, t),
             _ => Self::unrolled::<ORDER, 0>(knots, t),
         }
     }

@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use glam::{DAffine3, DVec3, DVec4};
 
-use super::basis::{self, Basis, Knots, Row, by_degree};
+use super::basis::{self, Basis, Knots, Row, by_degree, find_span};
 use super::control::{self, Control, lift_all, lower};
 use super::{NurbsError, knots};
 use crate::period::{CLOSURE, wrap};
@@ -128,6 +128,27 @@ impl NurbsCurve {
         self.0.evaluate::<2>(self.settle(t))
     }
 
+    /// No second derivative in the knot span around `t` is longer than this (the longest of its own control points that
+    /// count there, Piegl & Tiller eq. 3.8). `None` of rational curves, and outside of the domain.
+    pub fn second_derivative_bound(&self, t: f64) -> Option<f64> {
+        let Data { degree, points, homogeneous, knots, domain, .. } = &*self.0;
+        if !homogeneous.is_empty() || !(domain.start..domain.end).contains(&t) {
+            return None;
+        }
+        let p = *degree;
+        let first = find_span(knots, p, points.len(), t) - p;
+        let slope =
+            |i: usize| (points[i + 1] - points[i]) * (p as f64 / (knots[i + p + 1] - knots[i + 1]));
+        let mut before = slope(first);
+        let mut most = 0.0_f64;
+        for i in first + 1..first + p {
+            let next = slope(i);
+            most = most.max((next - before).length() * (p as f64 - 1.0) / (knots[i + p] - knots[i + 1]));
+            before = next;
+        }
+        most.is_finite().then_some(most)
+    }
+
     /// The distinct knots of the domain, both ends included.
     pub fn distinct_knots(&self) -> Vec<f64> {
         knots::distinct(&self.0.knots, self.0.domain)
@@ -206,4 +227,26 @@ fn combine<P: Control, R: Row, const ORDER: usize, const FIXED: usize>(
         }
     }
     sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn second_derivatives_keep_below_their_bound_and_reach_it() {
+        let knots = vec![0.0, 0.0, 0.0, 0.0, 0.3, 1.0, 1.0, 2.0, 2.0, 2.0, 2.0];
+        let points = [[0, 0], [1, 3], [2, -1], [4, 2], [5, 5], [6, 0], [9, 1]];
+        let points = points.map(|[x, y]| DVec3::new(f64::from(x), f64::from(y), 0.5)).to_vec();
+        let curve = NurbsCurve::new(3, points, Vec::new(), knots).expect("a curve");
+        for span in [[0.0, 0.3], [0.3, 1.0], [1.0, 2.0]] {
+            let within = |k: usize| span[0] + (span[1] - span[0]) * k as f64 / 1000.0;
+            let lengths = (1..1000).map(|k| curve.derivatives(within(k))[2].length());
+            let most = lengths.fold(0.0, f64::max);
+            let bound = curve.second_derivative_bound(within(500)).expect("polynomial");
+            // A cubic's second derivative runs straight from one control point to the next.
+            assert!(most <= bound && most > bound * 0.99, "{span:?}: {most} against {bound}");
+        }
+        assert_eq!(curve.second_derivative_bound(-1.0), None);
+    }
 }

@@ -19,6 +19,16 @@ impl Surface {
         }
     }
 
+    /// [`Surface::point`] and [`Surface::normal`] in one evaluation, where that is possible.
+    pub fn point_and_normal(&self, uv: DVec2) -> (DVec3, Option<DVec3>) {
+        if !matches!(self, Self::Nurbs(_)) {
+            return (self.point(uv), self.normal(uv));
+        }
+        let first = self.first_derivatives(uv);
+        let normal = self.normal_of_first(&first, uv);
+        (first.point, normal)
+    }
+
     /// Square to the meridian, away from the axis where the radius is positive.
     fn tube_normal(&self, uv: DVec2) -> Option<DVec3> {
         let (frame, tube) = self.tube(uv.y)?;
@@ -48,8 +58,12 @@ impl Surface {
     /// The cross product of the first derivatives; where one of them all but vanishes, its change towards the inside
     /// in its place; where that does not help, the normal a little further inside.
     fn general_normal(&self, uv: DVec2) -> Option<DVec3> {
-        let first = self.first_derivatives(uv);
-        if !self.is_singular(&first) {
+        self.normal_of_first(&self.first_derivatives(uv), uv)
+    }
+
+    /// The general normal at `uv`, of which `first` are the point and the first derivatives.
+    fn normal_of_first(&self, first: &Derivatives, uv: DVec2) -> Option<DVec3> {
+        if !self.is_singular(first) {
             return first.du.cross(first.dv).try_normalize();
         }
         self.singular_normal(self.derivatives(uv), uv)
