@@ -56,6 +56,32 @@ impl SiteInSpace {
     }
 }
 
+/// What is known of a triangle by its sides.
+#[derive(Clone, Copy, Default)]
+struct MeasuredSides {
+    /// Whether one of them is to be split.
+    broken: bool,
+    count: u8,
+    /// The sum of their deviations.
+    sum: f64,
+}
+
+impl MeasuredSides {
+    fn add(&mut self, off: f64) {
+        self.count += 1;
+        self.sum += off;
+    }
+
+    /// How far the surface is from the triangle's middle, where it is a quadric there (which is zero in the corners and
+    /// known in the middle of all sides).
+    fn middle(&self) -> Option<f64> {
+        (self.count == 3).then_some(self.sum * 4.0 / 9.0)
+    }
+}
+
+/// A triangle whose middle is as near as this part of the tolerance, by its sides, is not measured there.
+const CLEARLY_WITHIN: f64 = 0.5;
+
 /// An edge across a crease is to be nearer than this part of the tolerance.
 const CREASE_SHARE: f64 = 0.25;
 
@@ -198,7 +224,7 @@ impl<'a> Filling<'a> {
     /// Warped points at which edges or triangles with a site from `fresh` on break a bound, each with a site nearby.
     fn violations(&mut self, fresh: u32) -> Vec<(DVec2, u32)> {
         let inside = self.triangulation.inside();
-        let mut broken = vec![false; inside.len()];
+        let mut sides = vec![MeasuredSides::default(); inside.len()];
         let mut out = Vec::new();
         let mut worst = self.max_deviation_mm;
         for ([a, b], faces) in self.triangulation.inner_edges() {
@@ -208,14 +234,23 @@ impl<'a> Filling<'a> {
             let (at, off) = self.edge_violation(a, b);
             match at {
                 Some(at) if self.is_open(at) => {
-                    faces.iter().for_each(|&f| broken[f] = true);
+                    faces.iter().for_each(|&f| sides[f].broken = true);
                     out.push((at, a));
                 }
-                _ => worst = worst.max(off),
+                _ => {
+                    worst = worst.max(off);
+                    faces.iter().for_each(|&f| sides[f].add(off));
+                }
             }
         }
         for (face, t) in self.triangulation.triangles() {
-            if !inside[face] || broken[face] || (fresh > 0 && t.iter().all(|&s| s < fresh)) {
+            if !inside[face] || sides[face].broken || (fresh > 0 && t.iter().all(|&s| s < fresh)) {
+                continue;
+            }
+            if let Some(off) = sides[face].middle()
+                && off <= CLEARLY_WITHIN * self.tolerance.linear_mm
+            {
+                worst = worst.max(off);
                 continue;
             }
             let (at, off) = self.triangle_violation(t);

@@ -32,7 +32,7 @@ use trimloop_brep::{Diagnostic, FreePoint, Part, Severity};
 use trimloop_trim::{EdgeSamples, Tolerance, sample_curve, sample_edges};
 
 use crate::face::FaceMesher;
-use crate::size::size_mm;
+use crate::size::{most_mm, size_mm};
 
 /// Meshes one part.
 ///
@@ -90,11 +90,15 @@ fn line(curve: &trimloop_brep::FreeCurve, tolerance: Tolerance) -> Vec<DVec3> {
 
 /// The bound in millimetres, never zero.
 fn deflection_mm(part: &Part, deflection: LinearDeflection) -> f64 {
-    let size = size_mm(part);
-    let least = (size * 1e-7).max(1e-9);
+    let least = |size: f64| (size * 1e-7).max(1e-9);
     match deflection {
-        LinearDeflection::Absolute(mm) => mm.max(least),
-        LinearDeflection::Relative(share) => (size * share).max(least),
+        // What surely is enough need not be compared with the exact size.
+        LinearDeflection::Absolute(mm) if mm >= least(most_mm(part)) => mm,
+        LinearDeflection::Absolute(mm) => mm.max(least(size_mm(part))),
+        LinearDeflection::Relative(share) => {
+            let size = size_mm(part);
+            (size * share).max(least(size))
+        }
     }
 }
 

@@ -32,6 +32,37 @@ pub(crate) fn size_mm(part: &Part) -> f64 {
     if size.is_finite() && size > 0.0 { size } else { 1.0 }
 }
 
+/// More than the part's size, of a part of edges and faces alone: what control points span; infinite where even that is
+/// not to be had at once.
+pub(crate) fn most_mm(part: &Part) -> f64 {
+    if !part.curves.is_empty() {
+        return f64::INFINITY;
+    }
+    let points = part.vertices.iter().map(|v| v.point).chain(part.facet_points.iter().copied());
+    let mut bounds = Aabb::from_points(points.chain(part.points.iter().map(|point| point.point)));
+    for edge in &part.edges {
+        let of_edge = match &*edge.curve {
+            Curve::Nurbs(nurbs) => Some(Aabb::from_points(nurbs.points().iter().copied())),
+            Curve::Line { .. } | Curve::Circle { .. } => Some(edge.curve.bounds(edge.range)),
+            _ => net_bounds(edge),
+        };
+        let Some(of_edge) = of_edge else { return f64::INFINITY };
+        bounds = bounds.union(of_edge);
+    }
+    for face in part.faces.iter().filter(|f| f.loops.iter().all(|l| l.coedges.is_empty())) {
+        match &face.geometry {
+            FaceGeometry::Surface(surface) => match &**surface {
+                Surface::Nurbs(nurbs) => {
+                    bounds = bounds.union(Aabb::from_points(nurbs.points().iter().copied()));
+                }
+                _ => return f64::INFINITY,
+            },
+            FaceGeometry::Facets(_) | FaceGeometry::Unreadable(_) => {}
+        }
+    }
+    bounds.diagonal()
+}
+
 /// A box around an edge that runs over a spline surface, found at once.
 fn net_bounds(edge: &Edge) -> Option<Aabb> {
     let Curve::OnSurface { surface, pcurve } = &*edge.curve else { return None };

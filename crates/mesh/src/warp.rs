@@ -146,7 +146,7 @@ fn stations(surface: &Surface, direction: Direction, range: Interval) -> Vec<f64
         (Surface::Cylinder { .. } | Surface::Cone { .. } | Surface::Sphere { .. }, _) => 1,
         (Surface::Torus { .. }, Direction::U) => 1,
         (Surface::Extrusion { .. }, Direction::V) | (Surface::Revolution { .. }, Direction::U) => 1,
-        _ => (16 / breaks.len().max(1)).clamp(2, 8),
+        _ => (16 / breaks.len().max(1)).clamp(1, 8),
     };
     let mut out = Vec::new();
     let stride = (breaks.len() / 256).max(1);
