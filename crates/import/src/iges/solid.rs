@@ -9,11 +9,13 @@ use trimloop_brep::{
     Body, BodyKind, Coedge, Edge, EntityRef, FaceGeometry, FaceId, Loop, Rgba, Severity, Shell, ShellFace,
     VertexId,
 };
+use trimloop_geom::Surface;
 
 use super::curve::{Piece, joined};
 use super::look::{color_of, levels_of, name_of};
 use super::reader::{Fault, Outcome, Reader};
 use super::shape::ShapeBuilder;
+use crate::parallel::map_each;
 use crate::sew::free_edges;
 
 impl ShapeBuilder<'_> {
@@ -34,7 +36,10 @@ impl ShapeBuilder<'_> {
     /// Adds a face (type 510) that stands in no shell; such faces share their edges.
     pub fn add_brep_face(&mut self, entry: u32, color: Option<Rgba>) {
         let mut shared = std::mem::take(&mut self.loose_edges);
-        let face = self.face(entry, color, |builder| builder.shell_face(entry, &mut shared));
+        let face = self.face(entry, color, |builder| {
+            let surface = face_surface(&builder.reader, entry)?;
+            builder.shell_face(entry, surface, &mut shared)
+        });
         self.loose_edges = shared;
         self.hide_blanked(entry, face);
         self.loose.push(face);
@@ -109,25 +114,29 @@ impl ShapeBuilder<'_> {
         let mut parameters = self.reader.parameters(entry)?;
         parameters.expect(&[514], "shell")?;
         let closed = parameters.directory.form != 2;
-        let mut faces = Vec::new();
-        for _ in 0..parameters.count(2)? {
-            let (face, agrees) = (parameters.pointer()?, parameters.integer()? != 0);
+        let listed: Vec<(u32, bool)> = (0..parameters.count(2)?)
+            .map(|_| Ok((parameters.pointer()?, parameters.integer()? != 0)))
+            .collect::<Outcome<_>>()?;
+        let reader = self.reader;
+        let surfaces = map_each(&listed, |&(face, _)| face_surface(&reader, face));
+        let mut faces = Vec::with_capacity(listed.len());
+        for ((face, agrees), surface) in listed.into_iter().zip(surfaces) {
             let own = color_of(&self.reader, face).or(color);
-            let id = self.face(face, own, |builder| builder.shell_face(face, shared));
+            let id = self.face(face, own, |builder| builder.shell_face(face, surface?, shared));
             faces.push(ShellFace { face: id, reversed: agrees == turned });
         }
         Ok(Shell { entity: EntityRef::Iges(entry), closed, void, faces })
     }
 
-    /// Type 510.
+    /// Type 510, on the surface that [`face_surface`] has read.
     fn shell_face(
         &mut self,
         entry: u32,
+        (surface, same_sense): (Surface, bool),
         shared: &mut SharedEdges,
     ) -> Outcome<(FaceGeometry, bool, Vec<Loop>)> {
         let mut parameters = self.reader.parameters(entry)?;
-        parameters.expect(&[510], "face")?;
-        let ground = self.reader.surface(parameters.pointer()?)?;
+        parameters.pointer()?;
         let count = parameters.count(1)?;
         let has_outer = parameters.integer()? != 0;
         let mut loops = Vec::with_capacity(count);
@@ -135,7 +144,6 @@ impl ShapeBuilder<'_> {
             let bound = parameters.pointer()?;
             loops.push(self.edge_loop(bound, has_outer && k == 0, shared)?);
         }
-        let (surface, same_sense) = ground.simplified();
         Ok((FaceGeometry::Surface(Arc::new(surface)), same_sense, loops))
     }
 
@@ -201,6 +209,13 @@ impl ShapeBuilder<'_> {
         shared.vertices.insert((list, index), id);
         Ok(id)
     }
+}
+
+/// The surface of a face (type 510), and whether it looks the same way as the face.
+fn face_surface(reader: &Reader<'_>, entry: u32) -> Outcome<(Surface, bool)> {
+    let mut parameters = reader.parameters(entry)?;
+    parameters.expect(&[510], "face")?;
+    Ok(reader.surface(parameters.pointer()?)?.simplified())
 }
 
 /// Edges and vertices of lists that a body has already.
