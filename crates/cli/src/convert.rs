@@ -30,7 +30,8 @@ pub fn run(arguments: &ConvertArguments) -> anyhow::Result<Outcome> {
     start_threads(arguments.jobs)?;
     let mut worst = Outcome::Good;
     for job in &jobs {
-        let outcome = match contained(|| convert(job, arguments, &mut reports)) {
+        // On a worker: a main thread would only wait for them, and wake them up again and again.
+        let outcome = match contained(|| rayon::scope(|_| convert(job, arguments, &mut reports))) {
             Ok(outcome) => outcome,
             Err(_) if interrupt::requested() => {
                 worst = Outcome::Cancelled;
@@ -76,6 +77,8 @@ fn convert(job: &Job, arguments: &ConvertArguments, reports: &mut ReportSink) ->
     if !arguments.quiet {
         eprint!("{}", summary::of(&report, &model, &meshes, arguments.verbose));
     }
+    // The next file need not wait until the memory is given back, nor need the end.
+    rayon::spawn(move || drop((model, meshes)));
     Ok(outcome(&report, arguments.strict))
 }
 

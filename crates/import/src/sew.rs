@@ -162,7 +162,7 @@ fn coincide(a: &Edge, b: &Edge, reach: f64) -> bool {
     SHARES.iter().all(|&share| {
         let point = at(a, share);
         let start = b.range.at(if turned { 1.0 - share } else { share });
-        if near_parameter(b, point, start, reach).is_some() {
+        if comes_near(b, point, start, reach) {
             return true;
         }
         let foot = b.curve.project(point, None);
@@ -170,22 +170,52 @@ fn coincide(a: &Edge, b: &Edge, reach: f64) -> bool {
     })
 }
 
-/// Where a few Gauss-Newton steps along an edge from `t` lead to within `reach` of a point.
-pub(crate) fn near_parameter(edge: &Edge, point: DVec3, mut t: f64, reach: f64) -> Option<f64> {
+/// Whether a few Gauss-Newton steps along an edge from `t` come to within `reach` of a point.
+fn comes_near(edge: &Edge, point: DVec3, mut t: f64, reach: f64) -> bool {
+    for _ in 0..8 {
+        let [at, along, _] = edge.curve.derivatives(t);
+        if at.distance(point) <= reach {
+            return true;
+        }
+        let next = edge.range.clamp(t - (at - point).dot(along) / along.length_squared());
+        if next == t || next.is_nan() {
+            return false;
+        }
+        t = next;
+    }
+    false
+}
+
+/// Where Gauss-Newton steps along an edge end.
+pub(crate) enum Nearest {
+    /// At this parameter, where the edge is within reach.
+    Within(f64),
+    /// Where the edge comes no nearer, but is beyond reach.
+    Beyond,
+    /// Nowhere.
+    Unsettled,
+}
+
+/// Where a few Gauss-Newton steps along an edge from `t` towards a point end.
+pub(crate) fn nearest_from(edge: &Edge, point: DVec3, mut t: f64, reach: f64) -> Nearest {
     let mut step = f64::INFINITY;
     for _ in 0..8 {
         let [at, along, _] = edge.curve.derivatives(t);
         let next = edge.range.clamp(t - (at - point).dot(along) / along.length_squared());
-        if at.distance(point) <= reach && (next - t).abs() >= 0.5 * step {
-            return Some(t);
+        let distance = at.distance(point);
+        if distance <= reach && (next - t).abs() >= 0.5 * step {
+            return Nearest::Within(t);
         }
         step = (next - t).abs();
         if !step.is_finite() {
-            return None;
+            return Nearest::Unsettled;
+        }
+        if step * along.length() <= 1e-3 * reach {
+            return if distance <= reach { Nearest::Within(next) } else { Nearest::Beyond };
         }
         t = next;
     }
-    (edge.curve.point(t).distance(point) <= reach).then_some(t)
+    if edge.curve.point(t).distance(point) <= reach { Nearest::Within(t) } else { Nearest::Unsettled }
 }
 
 /// Where along edges they are held against each other.

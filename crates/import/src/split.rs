@@ -6,7 +6,7 @@ use trimloop_brep::{Coedge, Edge, EdgeId, FaceId, Part, Vertex, VertexId};
 use trimloop_geom::{Aabb, Interval};
 
 use crate::parallel::map_each;
-use crate::sew::{near_parameter, share_at};
+use crate::sew::{Nearest, nearest_from, share_at};
 
 /// Cuts the edges among `free` on which ends of others lie within `reach`, millimetres; gives how many cuts were made.
 pub(crate) fn split_edges(part: &mut Part, faces: &[FaceId], free: &[EdgeId], reach: f64) -> usize {
@@ -91,17 +91,27 @@ fn cut_points(part: &Part, id: EdgeId, ends: &Ends, reach: f64) -> Vec<(f64, DVe
         if corners.iter().any(|corner| corner.distance(point) <= 2.0 * reach) {
             continue;
         }
-        let Some(share) = line.nearest(point, reach) else { continue };
-        let t = near_parameter(edge, point, edge.range.at(share), reach).or_else(|| {
-            let foot = edge.curve.project(point, None);
-            (foot.distance <= reach).then_some(foot.t)
-        });
-        let share = t.and_then(|t| share_at(edge, t)).filter(|share| (1e-9..1.0 - 1e-9).contains(share));
+        let share = foot_within(edge, &line, point, reach).and_then(|t| share_at(edge, t)).filter(|share| (1e-9..1.0 - 1e-9).contains(share));
         out.extend(share.map(|share| (edge.range.at(share), point)));
     }
     out.sort_by(|a, b| a.0.total_cmp(&b.0));
     out.dedup_by(|next, before| next.1.distance(before.1) <= 2.0 * reach);
     out
+}
+
+/// The parameter at which an edge is within `reach` of a point.
+fn foot_within(edge: &Edge, line: &Outline, point: DVec3, reach: f64) -> Option<f64> {
+    for share in line.near(point, reach) {
+        match nearest_from(edge, point, edge.range.at(share), reach) {
+            Nearest::Within(t) => return Some(t),
+            Nearest::Beyond => {}
+            Nearest::Unsettled => {
+                let foot = edge.curve.project(point, None);
+                return (foot.distance <= reach).then_some(foot.t);
+            }
+        }
+    }
+    None
 }
 
 /// An edge as a few straight lines, to tell at once what is far from it.
@@ -117,7 +127,7 @@ impl Outline {
     fn new(edge: &Edge) -> Self {
         let at = |k: usize| edge.curve.point(edge.range.at(k as f64 / (2 * Self::PIECES) as f64));
         let all: Vec<DVec3> = (0..=2 * Self::PIECES).map(at).collect();
-        let sags = all.windows(3).step_by(2).map(|p| segment_distance(p[1], p[0], p[2]));
+        let sags = all.windows(3).step_by(2).map(|p| segment_foot(p[1], p[0], p[2]).1);
         Self { sag: sags.fold(0.0, f64::max), points: all.into_iter().step_by(2).collect() }
     }
 
@@ -128,20 +138,22 @@ impl Outline {
         Aabb { min: bounds.min - margin, max: bounds.max + margin }
     }
 
-    /// About where along the edge, as a share of its range, it comes nearest to a point; `None` where that is farther
-    /// than `reach`.
-    fn nearest(&self, point: DVec3, reach: f64) -> Option<f64> {
+    /// About where along the edge, as shares of its range, it may come within `reach` of a point: one per line.
+    fn near(&self, point: DVec3, reach: f64) -> impl Iterator<Item = f64> {
         let limit = reach + 4.0 * self.sag;
-        let distances = self.points.windows(2).map(|pair| segment_distance(point, pair[0], pair[1]));
-        let (piece, distance) = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1))?;
-        (!(distance > limit)).then_some((piece as f64 + 0.5) / Self::PIECES as f64)
+        self.points.windows(2).enumerate().filter_map(move |(piece, ends)| {
+            let (share, distance) = segment_foot(point, ends[0], ends[1]);
+            (!(distance > limit)).then_some((piece as f64 + share) / Self::PIECES as f64)
+        })
     }
 }
 
-fn segment_distance(point: DVec3, a: DVec3, b: DVec3) -> f64 {
+/// The point of a segment nearest to `point`, as a share of its length, and how far it is.
+fn segment_foot(point: DVec3, a: DVec3, b: DVec3) -> (f64, f64) {
     let along = b - a;
     let share = ((point - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-    point.distance(if share.is_nan() { a } else { a + along * share })
+    let share = if share.is_nan() { 0.0 } else { share };
+    (share, point.distance(a + along * share))
 }
 
 /// The pieces of an edge between points, in the direction of its curve; the first keeps the edge's number.

@@ -20,6 +20,8 @@ pub(crate) struct Filling<'a> {
     fringe: Fringe,
     warp: Warp,
     triangulation: Triangulation,
+    /// Per face of the triangulation as it is now whether it lies inside the domain, where that is known.
+    inside: Option<Vec<bool>>,
     sites: Vec<SiteInSpace>,
     /// The number of the first point that this filling adds, and of the next one.
     first_inner: u32,
@@ -114,6 +116,7 @@ impl<'a> Filling<'a> {
             warp,
             sites: Vec::with_capacity(triangulation.len()),
             triangulation,
+            inside: None,
             first_inner,
             next_point: first_inner,
             max_deviation_mm: 0.0,
@@ -213,6 +216,7 @@ impl<'a> Filling<'a> {
                 return;
             }
             fresh = self.sites.len() as u32;
+            self.inside = None;
             for (at, hint) in wanted {
                 if self.triangulation.insert(at, hint).is_some() {
                     self.place_inner(self.warp.unmap(at));
@@ -260,6 +264,7 @@ impl<'a> Filling<'a> {
             }
         }
         self.max_deviation_mm = worst;
+        self.inside = Some(inside);
         out
     }
 
@@ -348,8 +353,8 @@ impl<'a> Filling<'a> {
 
     /// The triangles inside, as vertices and indices, and the points the filling adds (numbered on after the domain's
     /// own).
-    pub fn finish(self) -> (Vec<DraftVertex>, Vec<[u32; 3]>, Vec<DVec3>) {
-        let inside = self.triangulation.inside();
+    pub fn finish(mut self) -> (Vec<DraftVertex>, Vec<[u32; 3]>, Vec<DVec3>) {
+        let inside = self.inside.take().unwrap_or_else(|| self.triangulation.inside());
         let distinct = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|s| self.sites[s as usize].point);
             a != b && b != c && c != a

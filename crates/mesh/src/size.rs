@@ -42,11 +42,9 @@ pub(crate) fn most_mm(part: &Part) -> f64 {
     let mut bounds = Aabb::from_points(points.chain(part.points.iter().map(|point| point.point)));
     for edge in &part.edges {
         let of_edge = match &*edge.curve {
-            Curve::Nurbs(nurbs) => Some(Aabb::from_points(nurbs.points().iter().copied())),
-            Curve::Line { .. } | Curve::Circle { .. } => Some(edge.curve.bounds(edge.range)),
-            _ => net_bounds(edge),
+            Curve::Nurbs(nurbs) => Aabb::from_points(nurbs.points().iter().copied()),
+            _ => net_bounds(edge).unwrap_or_else(|| edge.curve.bounds(edge.range)),
         };
-        let Some(of_edge) = of_edge else { return f64::INFINITY };
         bounds = bounds.union(of_edge);
     }
     for face in part.faces.iter().filter(|f| f.loops.iter().all(|l| l.coedges.is_empty())) {
