@@ -8,6 +8,7 @@ use trimloop_brep::{Body, BodyKind, Diagnostic, Diagnostics, Edge, EdgeId, Part,
 use trimloop_geom::Curve;
 
 use crate::hint::over;
+use crate::parallel::map_each;
 
 /// How far apart edges may lie to be one, millimetres: the nearest are joined first. The file's uncertainty is no
 /// good guide, it is often the modeller's and not the exporter's.
@@ -67,23 +68,23 @@ fn edges_of<'p>(part: &'p Part, body: &'p Body) -> impl Iterator<Item = EdgeId> 
 fn sew_edges(part: &mut Part, body: usize, free: &[EdgeId], reach: f64) -> usize {
     let vertex = coincident_vertices(part, free, reach);
     let root = |id: VertexId| vertex.get(&id).copied().unwrap_or(id);
+    let ends = |id: EdgeId| [part.edges[id as usize].start, part.edges[id as usize].end].map(root);
     let mut by_ends: FxHashMap<(VertexId, VertexId), Vec<EdgeId>> = FxHashMap::default();
-    let mut replaced: FxHashMap<EdgeId, (EdgeId, bool)> = FxHashMap::default();
     for &id in free {
-        let edge = &part.edges[id as usize];
-        let (start, end) = (root(edge.start), root(edge.end));
-        let waiting = by_ends.entry((start.min(end), start.max(end))).or_default();
-        let partner = waiting.iter().position(|&other| coincide(edge, &part.edges[other as usize], reach));
-        match partner {
-            Some(place) => {
-                let other = waiting.swap_remove(place);
-                let kept = &part.edges[other as usize];
-                let turned = if start == end { turns_back(edge, kept) } else { root(kept.start) != start };
-                replaced.insert(id, (other, turned));
-            }
-            None => waiting.push(id),
-        }
+        let [start, end] = ends(id);
+        by_ends.entry((start.min(end), start.max(end))).or_default().push(id);
     }
+    let groups: Vec<Vec<EdgeId>> = by_ends.into_values().filter(|group| group.len() > 1).collect();
+    let joined = map_each(&groups, |group| pairs(part, group, reach));
+    let replaced: FxHashMap<EdgeId, (EdgeId, bool)> = joined
+        .into_iter()
+        .flatten()
+        .map(|(gone, kept)| {
+            let [edge, other] = [gone, kept].map(|id| &part.edges[id as usize]);
+            let ([start, end], [first, _]) = (ends(gone), ends(kept));
+            (gone, (kept, if start == end { turns_back(edge, other) } else { first != start }))
+        })
+        .collect();
     if replaced.is_empty() {
         return 0;
     }
@@ -111,6 +112,20 @@ fn sew_edges(part: &mut Part, body: usize, free: &[EdgeId], reach: f64) -> usize
         (edge.start, edge.end) = (root(edge.start), root(edge.end));
     }
     replaced.len()
+}
+
+/// Among edges between the same vertices those that coincide, each with an earlier one.
+fn pairs(part: &Part, group: &[EdgeId], reach: f64) -> Vec<(EdgeId, EdgeId)> {
+    let mut waiting: Vec<EdgeId> = Vec::new();
+    let mut out = Vec::new();
+    for &id in group {
+        let edge = &part.edges[id as usize];
+        match waiting.iter().position(|&other| coincide(edge, &part.edges[other as usize], reach)) {
+            Some(place) => out.push((id, waiting.swap_remove(place))),
+            None => waiting.push(id),
+        }
+    }
+    out
 }
 
 /// For the ends of free edges, the first vertex that lies at the same place; not for those of an edge that would shrink

@@ -14,7 +14,7 @@ pub(crate) fn size_mm(part: &Part) -> f64 {
     let of_edge = |edge: &&Edge| edge.curve.bounds(edge.range);
     bounds = bounds.union(others.par_iter().map(of_edge).reduce(|| Aabb::EMPTY, Aabb::union));
     let known = bounds;
-    let is_inside = |edge: &Edge| net_bounds(edge).is_some_and(|bounds| known.contains(bounds));
+    let is_inside = |edge: &Edge| net_bounds(&edge.curve, edge.range).is_some_and(|bounds| known.contains(bounds));
     let beyond = on_surface.par_iter().filter(|edge| !is_inside(edge)).map(of_edge);
     bounds = bounds.union(beyond.reduce(|| Aabb::EMPTY, Aabb::union));
     for face in part.faces.iter().filter(|f| f.loops.iter().all(|l| l.coedges.is_empty())) {
@@ -32,20 +32,19 @@ pub(crate) fn size_mm(part: &Part) -> f64 {
     if size.is_finite() && size > 0.0 { size } else { 1.0 }
 }
 
-/// More than the part's size, of a part of edges and faces alone: what control points span; infinite where even that is
-/// not to be had at once.
+/// More than the part's size: what control points span; infinite where even that is not to be had at once.
 pub(crate) fn most_mm(part: &Part) -> f64 {
-    if !part.curves.is_empty() {
-        return f64::INFINITY;
-    }
     let points = part.vertices.iter().map(|v| v.point).chain(part.facet_points.iter().copied());
     let mut bounds = Aabb::from_points(points.chain(part.points.iter().map(|point| point.point)));
+    let net = |curve: &Curve, range: Interval| match curve {
+        Curve::Nurbs(nurbs) => Aabb::from_points(nurbs.points().iter().copied()),
+        _ => net_bounds(curve, range).unwrap_or_else(|| curve.bounds(range)),
+    };
     for edge in &part.edges {
-        let of_edge = match &*edge.curve {
-            Curve::Nurbs(nurbs) => Aabb::from_points(nurbs.points().iter().copied()),
-            _ => net_bounds(edge).unwrap_or_else(|| edge.curve.bounds(edge.range)),
-        };
-        bounds = bounds.union(of_edge);
+        bounds = bounds.union(net(&edge.curve, edge.range));
+    }
+    for free in &part.curves {
+        bounds = bounds.union(net(&free.curve, free.range));
     }
     for face in part.faces.iter().filter(|f| f.loops.iter().all(|l| l.coedges.is_empty())) {
         match &face.geometry {
@@ -61,10 +60,10 @@ pub(crate) fn most_mm(part: &Part) -> f64 {
     bounds.diagonal()
 }
 
-/// A box around an edge that runs over a spline surface, found at once.
-fn net_bounds(edge: &Edge) -> Option<Aabb> {
-    let Curve::OnSurface { surface, pcurve } = &*edge.curve else { return None };
+/// A box around a curve that runs over a spline surface, found at once.
+fn net_bounds(curve: &Curve, range: Interval) -> Option<Aabb> {
+    let Curve::OnSurface { surface, pcurve } = curve else { return None };
     let Surface::Nurbs(nurbs) = &**surface else { return None };
-    let Aabb { min, max } = pcurve.bounds(edge.range);
+    let Aabb { min, max } = pcurve.bounds(range);
     Some(nurbs.net_bounds([Interval::new(min.x, max.x), Interval::new(min.y, max.y)]))
 }

@@ -216,8 +216,8 @@ struct Sampler<'a> {
 
 /// What is known of where a sample's foot lies on a surface.
 enum Hint {
-    /// The foot itself.
-    Foot(SurfacePoint),
+    /// The foot itself, and the normal there.
+    Foot(SurfacePoint, Option<DVec3>),
     /// Parameters near it.
     Near(DVec2),
     /// Nothing.
@@ -429,10 +429,10 @@ impl Sampler<'_> {
             && let Some(pcurve) = &ground.pcurve
         {
             let uv = pcurve.point(t).truncate();
-            let on_surface = ground.surface.point(uv);
+            let (on_surface, normal) = ground.surface.point_and_normal(uv);
             let distance = on_surface.distance(point);
             if distance <= EXACT * (point.length() + on_surface.length()) {
-                return Hint::Foot(SurfacePoint { uv, point: on_surface, distance });
+                return Hint::Foot(SurfacePoint { uv, point: on_surface, distance }, normal);
             }
             let first = near.is_none() && other.is_none();
             if uv.is_finite() && (first || distance < self.tolerance.linear_mm) {
@@ -457,7 +457,7 @@ impl Sampler<'_> {
     fn foot(&self, ground: &Ground, point: DVec3, hint: Hint) -> Foot {
         let singular = ground.singular_point(point, self.snap);
         let (foot, normal) = match hint {
-            Hint::Foot(foot) => (foot, None),
+            Hint::Foot(foot, normal) => (foot, normal),
             Hint::Near(uv) => self.project(ground, point, Some(uv)),
             Hint::None => self.project(ground, point, None),
         };
