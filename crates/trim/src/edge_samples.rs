@@ -289,7 +289,7 @@ impl Sampler<'_> {
 
     /// Adds the points strictly between `a` and `b`, the middle one at least where a curve may swing to both sides.
     fn halve(&self, a: CurvePoint, b: CurvePoint, out: &mut Vec<CurvePoint>) -> f64 {
-        if self.closed || !matches!(self.curve, Curve::Nurbs(_)) {
+        if self.closed || !self.is_general() {
             return self.fill(a, b, None, 0, out);
         }
         let t = (a.t + b.t) * 0.5;
@@ -297,6 +297,14 @@ impl Sampler<'_> {
         middle.sag = self.fill(a, middle, None, 0, out);
         out.push(middle);
         self.fill(middle, b, None, 0, out)
+    }
+
+    /// Whether the curve may bend one way and the other.
+    fn is_general(&self) -> bool {
+        !matches!(
+            self.curve,
+            Curve::Line { .. } | Curve::Circle { .. } | Curve::Ellipse { .. } | Curve::Polyline(_)
+        )
     }
 
     /// Parameters that every polyline of this edge has, from the edge's start to its end.
@@ -330,9 +338,8 @@ impl Sampler<'_> {
             Curve::Circle { radius, .. } => turns(*radius),
             Curve::Ellipse { major, minor, .. } => turns(major.max(*minor)).max(4),
             Curve::Nurbs(nurbs) if nurbs.degree() == 1 => 1,
-            Curve::Nurbs(_) if self.closed => 4,
-            Curve::Nurbs(_) => 1,
-            _ => 4,
+            _ if self.closed => 4,
+            _ => 1,
         }
     }
 
@@ -366,7 +373,7 @@ impl Sampler<'_> {
 
     /// What remains of a line when points are dropped that a curve of many short spans has for its knots' sake alone.
     fn thinned(&self, line: &[CurvePoint]) -> Vec<usize> {
-        if line.len() < 6
+        if line.len() < 3
             || matches!(self.curve, Curve::Line { .. } | Curve::Circle { .. } | Curve::Ellipse { .. })
         {
             return (0..line.len()).collect();
@@ -525,7 +532,7 @@ impl Sampler<'_> {
         }
         let sag = match self.curve {
             Curve::Line { .. } => 0.0,
-            Curve::Nurbs(_) => {
+            _ if self.is_general() => {
                 let at = |share: f64| self.curve.point(a.t + (b.t - a.t) * share);
                 let [first, last] = *quarters.insert([at(0.25), at(0.75)]);
                 sag(a.point, chord, [first, middle, last])
