@@ -193,7 +193,8 @@ fn comes_near(edge: &Edge, point: DVec3, mut t: f64, reach: f64) -> bool {
             return true;
         }
         let next = edge.range.clamp(t - (at - point).dot(along) / along.length_squared());
-        if next == t || next.is_nan() {
+        let settled = (next - t).abs() * along.length() <= 0.1 * reach;
+        if settled || next.is_nan() {
             return false;
         }
         t = next;
