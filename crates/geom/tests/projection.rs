@@ -71,6 +71,37 @@ proptest! {
     }
 
     #[test]
+    fn normals_come_with_points_and_with_feet(s in 0.001..0.999_f64, t in 0.001..0.999_f64, away in -0.1..0.1_f64) {
+        for surface in surfaces() {
+            let [u, v] = surface.domain().map(part);
+            let uv = DVec2::new(u.at(s), v.at(t));
+            let (point, normal) = surface.point_and_normal(uv);
+            prop_assert!(point.distance(surface.point(uv)) <= 1e-12, "{} at {uv}", surface.kind());
+            prop_assert_eq!(normal, surface.normal(uv), "{} at {}", surface.kind(), uv);
+            let target = point + normal.unwrap_or_default() * away;
+            let (foot, normal) = surface.project_with_normal(target, None, 0.0);
+            let plain = surface.project(target, None);
+            prop_assert_eq!((foot.uv, foot.distance), (plain.uv, plain.distance));
+            if let (Some(a), Some(b)) = (normal, surface.normal(foot.uv)) {
+                prop_assert!(a.distance(b) <= 1e-9, "{} at {}: {a} {b}", surface.kind(), foot.uv);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_near_enough_need_not_be_nearest(point in any_point(), s in 0.0..=1.0_f64, t in 0.0..=1.0_f64) {
+        for surface in surfaces() {
+            let [u, v] = surface.domain().map(part);
+            let hint = Some(DVec2::new(u.at(s), v.at(t)));
+            let nearest = surface.project(point, hint);
+            let enough = 2.0 * nearest.distance;
+            let (foot, _) = surface.project_with_normal(point, hint, enough);
+            prop_assert!(foot.distance <= enough + 1e-9, "{}: {foot:?} {nearest:?}", surface.kind());
+            prop_assert!(foot.point.distance(surface.point(foot.uv)) <= 1e-9, "{}: {foot:?}", surface.kind());
+        }
+    }
+
+    #[test]
     fn hinted_feet_stay_within_half_a_period(s in -3.0..3.0_f64, t in 0.0..=1.0_f64) {
         for surface in surfaces() {
             let ([u, v], periods) = (surface.domain().map(part), surface.periods());

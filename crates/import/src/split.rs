@@ -91,7 +91,9 @@ fn cut_points(part: &Part, id: EdgeId, ends: &Ends, reach: f64) -> Vec<(f64, DVe
         if corners.iter().any(|corner| corner.distance(point) <= 2.0 * reach) {
             continue;
         }
-        let share = foot_within(edge, &line, point, reach).and_then(|t| share_at(edge, t)).filter(|share| (1e-9..1.0 - 1e-9).contains(share));
+        let share = foot_within(edge, &line, point, reach)
+            .and_then(|t| share_at(edge, t))
+            .filter(|share| (1e-9..1.0 - 1e-9).contains(share));
         out.extend(share.map(|share| (edge.range.at(share), point)));
     }
     out.sort_by(|a, b| a.0.total_cmp(&b.0));

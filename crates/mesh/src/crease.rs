@@ -105,9 +105,8 @@ fn candidates(surface: &Surface, direction: Direction, low: DVec2, high: DVec2) 
     // Beyond the end of an open surface there is nothing that the normal could jump to.
     let (whole, is_open) = (surface.domain()[k], surface.periods()[k].is_none());
     let is_end = |at: f64| is_open && (at <= whole.start || at >= whole.end);
-    let near = breaks
-        .into_iter()
-        .filter(|&at| at > range.start - margin && at < range.end + margin && !is_end(at));
+    let near =
+        breaks.into_iter().filter(|&at| at > range.start - margin && at < range.end + margin && !is_end(at));
     let (inner, border): (Vec<f64>, Vec<f64>) =
         near.partition(|&at| at > range.start + margin && at < range.end - margin);
     (if inner.len() > MAX_BREAKS { Vec::new() } else { inner }, border)

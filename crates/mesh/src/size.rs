@@ -14,7 +14,8 @@ pub(crate) fn size_mm(part: &Part) -> f64 {
     let of_edge = |edge: &&Edge| edge.curve.bounds(edge.range);
     bounds = bounds.union(others.par_iter().map(of_edge).reduce(|| Aabb::EMPTY, Aabb::union));
     let known = bounds;
-    let is_inside = |edge: &Edge| net_bounds(&edge.curve, edge.range).is_some_and(|bounds| known.contains(bounds));
+    let is_inside =
+        |edge: &Edge| net_bounds(&edge.curve, edge.range).is_some_and(|bounds| known.contains(bounds));
     let beyond = on_surface.par_iter().filter(|edge| !is_inside(edge)).map(of_edge);
     bounds = bounds.union(beyond.reduce(|| Aabb::EMPTY, Aabb::union));
     for face in part.faces.iter().filter(|f| f.loops.iter().all(|l| l.coedges.is_empty())) {
@@ -66,4 +67,45 @@ fn net_bounds(curve: &Curve, range: Interval) -> Option<Aabb> {
     let Surface::Nurbs(nurbs) = &**surface else { return None };
     let Aabb { min, max } = pcurve.bounds(range);
     Some(nurbs.net_bounds([Interval::new(min.x, max.x), Interval::new(min.y, max.y)]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+    use std::sync::Arc;
+    use trimloop_brep::{EntityRef, FreeCurve, Vertex};
+    use trimloop_geom::{DVec3, Frame, NurbsCurve};
+
+    #[test]
+    fn what_control_points_span_is_no_less_than_the_size() {
+        let spline = NurbsCurve::new(
+            2,
+            vec![DVec3::ZERO, DVec3::new(5.0, 40.0, 0.0), DVec3::X * 10.0],
+            Vec::new(),
+            vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0],
+        );
+        let entity = EntityRef::None;
+        let edge = |curve: Curve, range| Edge {
+            entity,
+            start: 0,
+            end: 0,
+            curve: Arc::new(curve),
+            range,
+            same_sense: true,
+        };
+        let circle = Curve::Circle { frame: Frame::WORLD, radius: 3.0 };
+        let mut part = Part {
+            vertices: vec![Vertex { entity, point: DVec3::X * 3.0 }],
+            edges: vec![edge(circle, Interval::new(0.0, TAU))],
+            ..Part::default()
+        };
+        assert_eq!(most_mm(&part), size_mm(&part));
+        part.edges.push(edge(Curve::Nurbs(spline.expect("a curve")), Interval::new(0.0, 0.3)));
+        assert!(most_mm(&part) > 1.1 * size_mm(&part));
+        let line = Curve::Line { origin: DVec3::ZERO, direction: DVec3::Y };
+        let (curve, range) = (Arc::new(line), Interval::new(0.0, 500.0));
+        part.curves.push(FreeCurve { entity, curve, range, color: None });
+        assert!(most_mm(&part) >= size_mm(&part) && size_mm(&part) > 500.0);
+    }
 }

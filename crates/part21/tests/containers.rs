@@ -3,7 +3,7 @@
 
 use flate2::{Compression, write::GzEncoder};
 use std::io::{Cursor, Write};
-use trimloop_part21::{Exchange, ReadError, ReadOptions};
+use trimloop_part21::{Exchange, FileBytes, ReadError, ReadOptions};
 use zip::write::{SimpleFileOptions, ZipWriter};
 
 const TEXT: &str = "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n#1=A('x');\nENDSEC;\nEND-ISO-10303-21;\n";
@@ -124,4 +124,17 @@ fn files_that_cannot_be_read() {
     std::fs::write(folder.path().join("large.stp"), TEXT).unwrap();
     let small = ReadOptions { max_bytes: 20, ..ReadOptions::default() };
     assert!(matches!(read("large.stp", small), Err(ReadError::TooLarge { cap: 20 })));
+}
+
+#[test]
+fn bytes_of_files_are_as_they_lie_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.igs");
+    let read = |max_bytes| FileBytes::read(&path, &ReadOptions { max_bytes, ..ReadOptions::default() });
+    assert!(matches!(read(10), Err(ReadError::Io(_))));
+    for text in ["", "0123456789"] {
+        std::fs::write(&path, text).unwrap();
+        assert_eq!(&*read(10).unwrap(), text.as_bytes());
+    }
+    assert!(matches!(read(9), Err(ReadError::TooLarge { cap: 9 })));
 }

@@ -1,5 +1,7 @@
 //! How far a curve or a surface is from a chord, and where it may be farthest.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
 /// A quarter of a chord is worth measuring where it may be off by more than this part of the tolerance.
@@ -46,6 +48,11 @@ fn peak([first, middle, last]: [f64; 3]) -> Option<f64> {
     let bend = first - 2.0 * middle + last;
     let lean = last - first;
     (bend < 0.0 && lean.abs() < -2.0 * bend).then(|| middle - lean * lean / (8.0 * bend))
+}
+
+/// Whether the angle between two vectors is more than `most`, radians.
+pub(crate) fn turns_by_more(a: DVec3, b: DVec3, most: f64) -> bool {
+    a.dot(b) < most.min(PI).cos() * (a.length_squared() * b.length_squared()).sqrt()
 }
 
 #[cfg(test)]

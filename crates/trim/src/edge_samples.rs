@@ -1,6 +1,5 @@
 //! Every edge of a part as one polyline, shared by all its faces, with its image in each of their parameter planes.
 
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -10,7 +9,8 @@ use trimloop_brep::{Edge, FaceGeometry, FaceId, Part};
 use trimloop_geom::{Curve, Direction, Interval, Singularity, Surface, SurfacePoint};
 
 use crate::Tolerance;
-use crate::chord::{doubtful_quarters, off_chord, sag};
+use crate::chord::{doubtful_quarters, turns_by_more};
+use crate::curve_line::{CurveLine, LinePoint, MAX_DEPTH};
 
 /// The shared samples of all edges of a part.
 #[derive(Clone, Debug, Default)]
@@ -84,8 +84,10 @@ pub fn sample_edges(part: &Part, tolerance: Tolerance) -> EdgeSamples {
             let ends = [edge.start, edge.end].map(|v| part.vertices[v as usize].point);
             let Edge { curve, range, same_sense, .. } = edge;
             let closed = edge.start == edge.end;
-            Sampler { curve, range: *range, same_sense: *same_sense, ends, closed, grounds, tolerance, snap }
-                .run()
+            let singular = grounds.iter().flat_map(|g| g.singularities.iter()).map(|s| s.point).collect();
+            let (range, same_sense) = (*range, *same_sense);
+            let line = CurveLine { curve, range, same_sense, ends, closed, singular, snap, tolerance };
+            Sampler { line, grounds }.run()
         })
         .collect();
     let mut out = EdgeSamples { points: part.vertices.iter().map(|v| v.point).collect(), edges: Vec::new() };
@@ -99,9 +101,10 @@ pub fn sample_curve(curve: &Curve, range: Interval, tolerance: Tolerance) -> Vec
     let ends = [curve.point(range.start), curve.point(range.end)];
     let closed = ends[0].distance(ends[1]) <= 1e-9 * ends[0].abs().max(ends[1].abs()).max_element();
     let tolerance = tolerance.clamped();
-    let line =
-        Sampler { curve, range, same_sense: true, ends, closed, grounds: &[], tolerance, snap: 0.0 }.run();
-    line.samples.into_iter().map(|s| s.point).collect()
+    let (same_sense, singular, snap) = (true, Vec::new(), 0.0);
+    let line = CurveLine { curve, range, same_sense, ends, closed, singular, snap, tolerance };
+    let points = line.points();
+    line.thinned(&points).into_iter().map(|k| points[k].point).collect()
 }
 
 /// Within this distance a point counts as a surface's singular point.
@@ -145,15 +148,6 @@ fn grounds_of_edges(part: &Part) -> Vec<Vec<Ground>> {
 struct Polyline {
     samples: Vec<Sample>,
     sides: Vec<FaceId>,
-}
-
-/// A point of the curve, before anything is known of the surfaces beside it.
-#[derive(Clone, Copy)]
-struct CurvePoint {
-    t: f64,
-    point: DVec3,
-    /// How far the curve is from the chord that ends here.
-    sag: f64,
 }
 
 #[derive(Clone, Default)]
@@ -201,17 +195,10 @@ impl Polyline {
     }
 }
 
+/// A line with the surfaces beside it.
 struct Sampler<'a> {
-    curve: &'a Curve,
-    range: Interval,
-    /// Whether the polyline runs from the range's start to its end.
-    same_sense: bool,
-    /// The polyline's ends, in its own direction: exactly the vertices.
-    ends: [DVec3; 2],
-    closed: bool,
+    line: CurveLine<'a>,
     grounds: &'a [Ground],
-    tolerance: Tolerance,
-    snap: f64,
 }
 
 /// What is known of where a sample's foot lies on a surface.
@@ -227,16 +214,10 @@ enum Hint {
 /// Up to this share of their own length, points are the same.
 const EXACT: f64 = 1e-14;
 
-/// So many points of a line at most are replaced by one chord.
-const LONGEST_RUN: usize = 64;
-
-/// How often a chord may be halved.
-const MAX_DEPTH: u32 = 14;
-
 impl Sampler<'_> {
     fn run(&self) -> Polyline {
-        let line = self.line();
-        let kept = self.thinned(&line);
+        let line = self.line.points();
+        let kept = self.line.thinned(&line);
         let mut samples: Vec<Sample> = Vec::with_capacity(kept.len() * 2);
         let mut passed = 0;
         for at in kept {
@@ -251,170 +232,8 @@ impl Sampler<'_> {
         Polyline { samples, sides: self.grounds.iter().map(|g| g.face).collect() }
     }
 
-    /// The curve by itself: points whose chords keep the tolerance.
-    fn line(&self) -> Vec<CurvePoint> {
-        let starts = self.start_parameters();
-        let mut line: Vec<CurvePoint> = Vec::with_capacity(starts.len() * 2);
-        let last = starts.len() - 1;
-        for (i, &t) in starts.iter().enumerate() {
-            let point = match i {
-                0 => self.ends[0],
-                i if i == last => self.ends[1],
-                _ => self.curve.point(t),
-            };
-            let mut next = CurvePoint { t, point, sag: 0.0 };
-            if let Some(&near) = line.last() {
-                next.sag = match self.sag_bound(&near, &next) {
-                    Some(sag) => sag,
-                    None => self.halve(near, next, &mut line),
-                };
-            }
-            line.push(next);
-        }
-        line
-    }
-
-    /// More than the curve can be from its chord, where it is a polynomial between the chord's ends and that is enough to
-    /// know that it keeps well within the tolerance.
-    fn sag_bound(&self, a: &CurvePoint, b: &CurvePoint) -> Option<f64> {
-        let Curve::Nurbs(nurbs) = self.curve else { return None };
-        let step = (b.t - a.t).abs();
-        let bend = nurbs.second_derivative_bound((a.t + b.t) * 0.5)? * step * step;
-        let sag = bend / 8.0;
-        // The curve's velocity is the chord's on average, and changes by no more than `bend` (both over the step).
-        let slowest = a.point.distance(b.point) - bend;
-        let keeps = sag <= self.tolerance.linear_mm * 0.5 && bend <= slowest * self.tolerance.angular_rad * 0.5;
-        keeps.then_some(sag)
-    }
-
-    /// Adds the points strictly between `a` and `b`, the middle one at least where a curve may swing to both sides.
-    fn halve(&self, a: CurvePoint, b: CurvePoint, out: &mut Vec<CurvePoint>) -> f64 {
-        if self.closed || !self.is_general() {
-            return self.fill(a, b, None, 0, out);
-        }
-        let t = (a.t + b.t) * 0.5;
-        let mut middle = CurvePoint { t, point: self.curve.point(t), sag: 0.0 };
-        middle.sag = self.fill(a, middle, None, 0, out);
-        out.push(middle);
-        self.fill(middle, b, None, 0, out)
-    }
-
-    /// Whether the curve may bend one way and the other.
-    fn is_general(&self) -> bool {
-        !matches!(
-            self.curve,
-            Curve::Line { .. } | Curve::Circle { .. } | Curve::Ellipse { .. } | Curve::Polyline(_)
-        )
-    }
-
-    /// Parameters that every polyline of this edge has, from the edge's start to its end.
-    fn start_parameters(&self) -> Vec<f64> {
-        let range = self.range;
-        let mut out = Vec::new();
-        let breaks = self.curve.breakpoints(range);
-        for pair in breaks.windows(2) {
-            let count = self.start_count(Interval::new(pair[0], pair[1]));
-            let piece = Interval::new(pair[0], pair[1]);
-            out.extend((0..count).map(|i| piece.at(i as f64 / count as f64)));
-        }
-        out.push(range.end);
-        if out.len() == 1 {
-            out.insert(0, range.start);
-        }
-        self.add_singular_points(&mut out);
-        if !self.same_sense {
-            out.reverse();
-        }
-        out
-    }
-
-    /// Equal steps that a smooth piece starts with; more follow where they are needed.
-    fn start_count(&self, piece: Interval) -> usize {
-        let turns = |radius: f64| {
-            (piece.length() / self.tolerance.arc_step_rad(radius) - 1e-9).ceil().max(1.0) as usize
-        };
-        match self.curve {
-            Curve::Line { .. } | Curve::Polyline(_) => 1,
-            Curve::Circle { radius, .. } => turns(*radius),
-            Curve::Ellipse { major, minor, .. } => turns(major.max(*minor)).max(4),
-            Curve::Nurbs(nurbs) if nurbs.degree() == 1 => 1,
-            _ if self.closed => 4,
-            _ => 1,
-        }
-    }
-
-    /// A polyline must not jump over a pole: it is where the parameters of the surface turn over.
-    fn add_singular_points(&self, parameters: &mut Vec<f64>) {
-        let Self { curve, range, .. } = self;
-        for singularity in self.grounds.iter().flat_map(|g| g.singularities.iter()) {
-            let foot = curve.project(singularity.point, None);
-            if foot.distance > self.snap {
-                continue;
-            }
-            let t = match curve.period() {
-                Some(period) => foot.t + ((range.start - foot.t) / period).ceil() * period,
-                None => foot.t,
-            };
-            let margin = range.length() * 1e-6;
-            if t > range.start + margin && t < range.end - margin {
-                let at = parameters.partition_point(|&p| p < t);
-                let gap = parameters.get(at).copied().unwrap_or(range.end) - parameters[at.saturating_sub(1)];
-                let near = |p: Option<&f64>| p.is_some_and(|p| (p - t).abs() < gap * 1e-3);
-                if near(parameters.get(at)) && at + 1 < parameters.len() {
-                    parameters[at] = t;
-                } else if near(parameters.get(at.wrapping_sub(1))) && at > 1 {
-                    parameters[at - 1] = t;
-                } else {
-                    parameters.insert(at, t);
-                }
-            }
-        }
-    }
-
-    /// What remains of a line when points are dropped that a curve of many short spans has for its knots' sake alone.
-    fn thinned(&self, line: &[CurvePoint]) -> Vec<usize> {
-        if line.len() < 3
-            || matches!(self.curve, Curve::Line { .. } | Curve::Circle { .. } | Curve::Ellipse { .. })
-        {
-            return (0..line.len()).collect();
-        }
-        let mut kept = vec![0];
-        let mut at = 0;
-        let last = line.len() - 1;
-        let most = (last / if self.closed { 4 } else { 1 }).min(LONGEST_RUN);
-        while at < last {
-            let spans = |run: usize| at + run <= last && self.spans(&line[at..=at + run]);
-            at += longest(most, spans);
-            kept.push(at);
-        }
-        kept
-    }
-
-    /// Whether one chord may stand for all of `run`, with what lies between its points.
-    fn spans(&self, run: &[CurvePoint]) -> bool {
-        let (Some(a), Some(b)) = (run.first(), run.last()) else { return false };
-        let Some(along) = (b.point - a.point).try_normalize() else { return false };
-        let inner = &run[1..run.len() - 1];
-        let off = |p: &CurvePoint| (p.point - a.point).reject_from_normalized(along).length();
-        let near = |pair: &[CurvePoint]| {
-            let off = off(&pair[0]).max(off(&pair[1]));
-            off <= self.tolerance.linear_mm * 0.5 && off + pair[1].sag <= self.tolerance.linear_mm
-        };
-        let straight = |pair: &[CurvePoint]| {
-            !turns_by_more(pair[1].point - pair[0].point, along, self.tolerance.angular_rad * 0.45)
-        };
-        !inner.iter().any(|p| self.is_singular(p.point))
-            && run.windows(2).all(near)
-            && run.windows(2).all(straight)
-    }
-
-    /// Whether a point is a singular one of a surface.
-    fn is_singular(&self, point: DVec3) -> bool {
-        self.grounds.iter().any(|g| g.singular_point(point, self.snap).is_some())
-    }
-
-    fn sample(&self, at: &CurvePoint, near: Option<&Sample>, other: Option<&Sample>) -> Sample {
-        let &CurvePoint { t, point, .. } = at;
+    fn sample(&self, at: &LinePoint, near: Option<&Sample>, other: Option<&Sample>) -> Sample {
+        let &LinePoint { t, point, .. } = at;
         let sides = self.grounds.iter().enumerate().map(|(k, g)| {
             let hint = self.hint(g, k, t, point, near, other);
             self.foot(g, point, hint)
@@ -442,7 +261,7 @@ impl Sampler<'_> {
                 return Hint::Foot(SurfacePoint { uv, point: on_surface, distance }, normal);
             }
             let first = near.is_none() && other.is_none();
-            if uv.is_finite() && (first || distance < self.tolerance.linear_mm) {
+            if uv.is_finite() && (first || distance < self.line.tolerance.linear_mm) {
                 return Hint::Near(uv);
             }
         }
@@ -462,7 +281,7 @@ impl Sampler<'_> {
     }
 
     fn foot(&self, ground: &Ground, point: DVec3, hint: Hint) -> Foot {
-        let singular = ground.singular_point(point, self.snap);
+        let singular = ground.singular_point(point, self.line.snap);
         let (foot, normal) = match hint {
             Hint::Foot(foot, normal) => (foot, normal),
             Hint::Near(uv) => self.project(ground, point, Some(uv)),
@@ -475,7 +294,7 @@ impl Sampler<'_> {
 
     /// The foot from `hint`, and the normal there; searched anew where that is too far away to be the right one.
     fn project(&self, ground: &Ground, point: DVec3, hint: Option<DVec2>) -> (SurfacePoint, Option<DVec3>) {
-        let enough = self.tolerance.linear_mm * 0.1;
+        let enough = self.line.tolerance.linear_mm * 0.1;
         let found = ground.surface.project_with_normal(point, hint, enough);
         if hint.is_none() || found.0.distance <= enough {
             return found;
@@ -484,77 +303,19 @@ impl Sampler<'_> {
         if other.0.distance < found.0.distance * 0.5 { other } else { found }
     }
 
-    /// Adds the points strictly between `a` and `b`. Gives how far the curve is from the chord that ends at `b`.
-    /// `middle` is the curve's point halfway, where that is known.
-    fn fill(
-        &self,
-        a: CurvePoint,
-        b: CurvePoint,
-        middle: Option<DVec3>,
-        depth: u32,
-        out: &mut Vec<CurvePoint>,
-    ) -> f64 {
-        if depth >= MAX_DEPTH || !(a.t - b.t).abs().is_normal() {
-            return 0.0;
-        }
-        let t = (a.t + b.t) * 0.5;
-        let point = middle.unwrap_or_else(|| self.curve.point(t));
-        let mut quarters = None;
-        if let Some(sag) = self.accepted(&a, &b, point, &mut quarters) {
-            return sag;
-        }
-        let mut middle = CurvePoint { t, point, sag: 0.0 };
-        middle.sag = self.fill(a, middle, quarters.map(|q| q[0]), depth + 1, out);
-        out.push(middle);
-        self.fill(middle, b, quarters.map(|q| q[1]), depth + 1, out)
-    }
-
-    /// How far the curve is from its chord; `None` where that is too much, or the curve turns too far. Gives the curve's
-    /// points at the `quarters` where it has asked for them.
-    fn accepted(
-        &self,
-        a: &CurvePoint,
-        b: &CurvePoint,
-        middle: DVec3,
-        quarters: &mut Option<[DVec3; 2]>,
-    ) -> Option<f64> {
-        let chord = b.point - a.point;
-        let length = (middle - a.point).length() + (b.point - middle).length();
-        if length <= self.tolerance.shortest_chord_mm() {
-            return Some(length);
-        }
-        // The chords of the two halves turn by half as much as the tangents at the ends do.
-        let most = 0.5 * self.tolerance.angular_rad * 1.001;
-        if !matches!(self.curve, Curve::Line { .. })
-            && turns_by_more(middle - a.point, b.point - middle, most)
-        {
-            return None;
-        }
-        let sag = match self.curve {
-            Curve::Line { .. } => 0.0,
-            _ if self.is_general() => {
-                let at = |share: f64| self.curve.point(a.t + (b.t - a.t) * share);
-                let [first, last] = *quarters.insert([at(0.25), at(0.75)]);
-                sag(a.point, chord, [first, middle, last])
-            }
-            _ => off_chord(a.point, chord, middle).length(),
-        };
-        (sag <= self.tolerance.linear_mm).then_some(sag)
-    }
-
     /// Adds the samples strictly between `a` and `b` that the surfaces beside the edge ask for, first of those that the
     /// line has `between` them, then of others.
     fn keep_to_surfaces(
         &self,
         a: &Sample,
         b: &Sample,
-        between: &[CurvePoint],
+        between: &[LinePoint],
         depth: u32,
         out: &mut Vec<Sample>,
     ) {
         if depth >= MAX_DEPTH
             || !(a.t - b.t).abs().is_normal()
-            || a.point.distance(b.point) <= self.tolerance.shortest_chord_mm()
+            || a.point.distance(b.point) <= self.line.tolerance.shortest_chord_mm()
         {
             return;
         }
@@ -568,7 +329,7 @@ impl Sampler<'_> {
             Some((&middle, after)) => (middle, after),
             None => {
                 let t = (a.t + b.t) * 0.5;
-                (CurvePoint { t, point: self.curve.point(t), sag: 0.0 }, rest)
+                (LinePoint { t, point: self.line.curve.point(t), sag: 0.0 }, rest)
             }
         };
         let middle = self.sample(&middle, Some(a), Some(b));
@@ -592,11 +353,11 @@ impl Sampler<'_> {
         };
         let (middle, normal) = above(0.5);
         let normals = [fa, fb].map(|foot| foot.normal.unwrap_or_default());
-        let most = self.tolerance.angular_rad * 1.001;
-        middle.abs() > self.tolerance.linear_mm
+        let most = self.line.tolerance.angular_rad * 1.001;
+        middle.abs() > self.line.tolerance.linear_mm
             || passes && normals.iter().any(|&end| end != DVec3::ZERO && turns_by_more(end, normal, most))
-            || doubtful_quarters(chord, normals, middle, self.tolerance.linear_mm)
-                .any(|share| above(share).0.abs() > self.tolerance.linear_mm)
+            || doubtful_quarters(chord, normals, middle, self.line.tolerance.linear_mm)
+                .any(|share| above(share).0.abs() > self.line.tolerance.linear_mm)
     }
 
     /// Whether the surface turns by more than `most` only at one of two feet, where it has a crease.
@@ -608,7 +369,7 @@ impl Sampler<'_> {
 
     /// Whether the surface turns, or its parameters run, too far between two feet.
     fn turns(&self, ground: &Ground, a: &Foot, b: &Foot) -> bool {
-        let most = self.tolerance.angular_rad * 1.001;
+        let most = self.line.tolerance.angular_rad * 1.001;
         if let (Some(na), Some(nb)) = (a.normal, b.normal)
             && turns_by_more(na, nb, most)
             && !(ground.free_form && self.turns_at_its_end(ground, a, b, most))
@@ -630,27 +391,86 @@ impl Sampler<'_> {
     }
 }
 
-/// The largest number that `holds`, up to `most`, by doubling and halving: of larger ones than one that does not hold, none
-/// does. One holds always.
-fn longest(most: usize, holds: impl Fn(usize) -> bool) -> usize {
-    let mut good = 1;
-    while good * 2 <= most && holds(good * 2) {
-        good *= 2;
-    }
-    let mut step = good / 2;
-    if good * 2 > most {
-        step = (most - good).next_power_of_two();
-    }
-    while step > 0 {
-        if good + step <= most && holds(good + step) {
-            good += step;
-        }
-        step /= 2;
-    }
-    good
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+    use trimloop_brep::{Coedge, EntityRef, Face, Loop, Vertex};
+    use trimloop_geom::NurbsCurve;
 
-/// Whether the angle between two vectors is more than `most`, radians.
-fn turns_by_more(a: DVec3, b: DVec3, most: f64) -> bool {
-    a.dot(b) < most.min(PI).cos() * (a.length_squared() * b.length_squared()).sqrt()
+    /// A sheet that lies flat at both ends of its straight border and leans over by `lean` radians in between; the border
+    /// is a spline of many spans.
+    fn leaning_sheet(lean: f64) -> Part {
+        const SPANS: usize = 48;
+        let knots: Vec<f64> = std::iter::once(0).chain(0..=SPANS).chain([SPANS]).map(|k| k as f64).collect();
+        let along = |height: fn(f64) -> f64, slope: f64, y: f64| {
+            let point = |k: usize| {
+                let x = k as f64 / SPANS as f64;
+                DVec3::new(100.0 * x, y, slope * height(x))
+            };
+            (0..=SPANS).map(point).collect::<Vec<DVec3>>()
+        };
+        let border = NurbsCurve::new(1, along(|_| 0.0, 0.0, 0.0), Vec::new(), knots.clone()).expect("a line");
+        let rows: Vec<DVec3> = along(|_| 0.0, 0.0, 0.0)
+            .into_iter()
+            .zip(along(|x| (PI * x).sin(), 20.0 * lean.tan(), 20.0))
+            .flat_map(|(a, b)| [a, b])
+            .collect();
+        let sheet = trimloop_geom::NurbsSurface::new(
+            [1, 1],
+            SPANS + 1,
+            2,
+            rows,
+            Vec::new(),
+            [knots, vec![0.0, 0.0, 1.0, 1.0]],
+        );
+        let entity = EntityRef::None;
+        let vertex = |x: f64| Vertex { entity, point: DVec3::new(x, 0.0, 0.0) };
+        let edge = Edge {
+            entity,
+            start: 0,
+            end: 1,
+            curve: Arc::new(Curve::Nurbs(border)),
+            range: Interval::new(0.0, SPANS as f64),
+            same_sense: true,
+        };
+        let coedges = vec![Coedge { edge: 0, reversed: false, pcurve: None }];
+        let face = Face {
+            entity,
+            name: String::new(),
+            geometry: FaceGeometry::Surface(Arc::new(Surface::Nurbs(sheet.expect("a sheet")))),
+            same_sense: true,
+            loops: vec![Loop { entity, coedges, ..Loop::default() }],
+            color: None,
+            hidden: false,
+        };
+        Part {
+            faces: vec![face],
+            edges: vec![edge],
+            vertices: vec![vertex(0.0), vertex(100.0)],
+            ..Part::default()
+        }
+    }
+
+    #[test]
+    fn straight_edges_have_samples_where_their_surface_leans_over() {
+        let tolerance = Tolerance { linear_mm: 0.1, angular_rad: 0.2 };
+        let count = |lean| sample_edges(&leaning_sheet(lean), tolerance).edges[0].points.len();
+        assert_eq!(count(0.0), 2);
+        // Up and down again, by no more than the angle from one sample to the next.
+        assert!((8..20).contains(&count(0.8)), "{}", count(0.8));
+    }
+
+    #[test]
+    fn samples_lie_on_their_surface() {
+        let tolerance = Tolerance { linear_mm: 0.1, angular_rad: 0.2 };
+        let part = leaning_sheet(0.8);
+        let samples = sample_edges(&part, tolerance);
+        let FaceGeometry::Surface(surface) = &part.faces[0].geometry else { panic!("a surface") };
+        let side = samples.edges[0].side(0).expect("the sheet's side");
+        assert!(side.off_surface_mm < 1e-9);
+        for (&point, &uv) in samples.edges[0].points.iter().zip(&side.uv) {
+            assert!(surface.point(uv).distance(samples.points[point as usize]) < 1e-9);
+        }
+    }
 }

@@ -7,6 +7,7 @@
 mod band;
 mod chord;
 mod classify;
+mod curve_line;
 pub mod curves;
 mod cut;
 mod domain;

@@ -199,11 +199,11 @@ impl Local<'_> {
     fn raise<const FIXED: usize>(&self, to: usize, t: f64, values: &mut [f64]) {
         let degree = if FIXED > 0 { FIXED } else { self.degree };
         let mut saved = 0.0;
-        for r in 0..to {
+        for (r, value) in values[..to].iter_mut().enumerate() {
             let right = self.values[degree + r];
             let left = self.values[degree + r - to];
-            let share = values[r] * self.reciprocal::<FIXED>(to, r);
-            values[r] = saved + (right - t) * share;
+            let share = *value * self.reciprocal::<FIXED>(to, r);
+            *value = saved + (right - t) * share;
             saved = (t - left) * share;
         }
         values[to] = saved;
@@ -213,9 +213,9 @@ impl Local<'_> {
     #[inline(always)]
     fn differentiate<const FIXED: usize>(&self, to: usize, values: &mut [f64]) {
         let mut previous = 0.0;
-        for i in 0..to {
-            let slope = values[i] * to as f64 * self.reciprocal::<FIXED>(to, i);
-            values[i] = previous - slope;
+        for (i, value) in values[..to].iter_mut().enumerate() {
+            let slope = *value * to as f64 * self.reciprocal::<FIXED>(to, i);
+            *value = previous - slope;
             previous = slope;
         }
         values[to] = previous;
@@ -246,7 +246,8 @@ mod tests {
             knots.extend(vec![1.0; degree + 1]);
             let count = knots.len() - degree - 1;
             for step in 0..=20 {
-                let basis = Basis::<Vec<f64>>::new::<2, 0>(&Knots::of(&knots, degree, count), step as f64 / 20.0);
+                let basis =
+                    Basis::<Vec<f64>>::new::<2, 0>(&Knots::of(&knots, degree, count), step as f64 / 20.0);
                 let sums = basis.rows.each_ref().map(|row| row.iter().sum::<f64>());
                 let size = basis.rows.each_ref().map(|row| row.iter().map(|x| x.abs()).sum::<f64>());
                 assert!((sums[0] - 1.0).abs() < 1e-12, "degree {degree}: {sums:?}");

@@ -137,8 +137,7 @@ impl NurbsCurve {
         }
         let p = *degree;
         let first = find_span(knots, p, points.len(), t) - p;
-        let slope =
-            |i: usize| (points[i + 1] - points[i]) * (p as f64 / (knots[i + p + 1] - knots[i + 1]));
+        let slope = |i: usize| (points[i + 1] - points[i]) * (p as f64 / (knots[i + p + 1] - knots[i + 1]));
         let mut before = slope(first);
         let mut most = 0.0_f64;
         for i in first + 1..first + p {
