@@ -177,7 +177,7 @@ impl<E: Fn(f64) -> [DVec3; 3]> CurveSearch<E> {
         if residual.length() <= 1e-12 * scale || slope.abs() <= square {
             return true;
         }
-        (t <= self.limits.start && slope > 0.0) || (t >= self.limits.end && slope < 0.0)
+        pushed_against(self.limits, t, slope)
     }
 
     /// Golden section between a sample's neighbours, for corners and other places where Newton fails.
@@ -200,6 +200,17 @@ impl<E: Fn(f64) -> [DVec3; 3]> CurveSearch<E> {
         }
         self.descend(target, inner[usize::from(values[1] < values[0])])
     }
+}
+
+/// Parameters that are nearer to a limit than this share of what lies between the limits are at the limit: no step leads
+/// any further from there, and rounding may well end one before it.
+const HAIR: f64 = 1e-13;
+
+/// Whether a parameter is at a limit, and would be nearer to the target beyond it: there the squared distance falls, whose
+/// derivative is `slope`.
+pub(super) fn pushed_against(limits: Interval, t: f64, slope: f64) -> bool {
+    let hair = if limits.is_finite() { HAIR * limits.length() } else { 0.0 };
+    (t <= limits.start + hair && slope > 0.0) || (t >= limits.end - hair && slope < 0.0)
 }
 
 /// Whether the next step would be no longer than `least`: this one is not, or it has shrunk so much from the one before

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use glam::{DVec2, DVec3};
 
 use super::SampleGrid;
-use super::curve_search::has_settled;
+use super::curve_search::{has_settled, pushed_against};
 use crate::period::wrap;
 use crate::{Derivatives, Direction, Interval, Surface};
 
@@ -233,9 +233,7 @@ impl Gradient {
         let metric = [s.du.length_squared(), s.du.dot(s.dv), s.dv.length_squared()];
         let bend = [residual.dot(s.duu), residual.dot(s.duv), residual.dot(s.dvv)];
         let hessian = [0, 1, 2].map(|i| metric[i] + bend[i]);
-        let pushed = |d: usize| {
-            (uv[d] <= limits[d].start && slope[d] > 0.0) || (uv[d] >= limits[d].end && slope[d] < 0.0)
-        };
+        let pushed = |d: usize| pushed_against(limits[d], uv[d], slope[d]);
         Self { slope, metric, hessian, free: [!pushed(0), !pushed(1)] }
     }
 
@@ -306,4 +304,27 @@ fn square(x: f64) -> f64 {
 fn quotient(a: f64, b: f64) -> f64 {
     let q = a / b;
     if q.is_finite() { q } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::NurbsSurface;
+
+    #[test]
+    fn a_foot_at_the_end_of_a_domain_is_proper_where_rounding_ends_it_a_hair_before() {
+        // As exporters write them: the end is zero but for a rounding error.
+        let end = 6.95e-15;
+        let points =
+            [[0.0, 0.0], [0.0, 5.0], [3.0, 0.0], [3.0, 5.0]].map(|[x, y]| DVec3::new(1e3 + x, y, 0.0));
+        let knots = [vec![-1.02, -1.02, end, end], vec![0.0, 0.0, 1.0, 1.0]];
+        let sheet = NurbsSurface::new([1, 1], 2, 2, points.to_vec(), Vec::new(), knots).expect("a sheet");
+        let surface = Surface::Nurbs(sheet);
+        let search = SurfaceSearch::new(&surface);
+        for start in [[-8e-16, 0.4], [4.1e-15, 0.4], [0.0, 0.37], [end, 0.4], [-0.5, 0.2]] {
+            let foot = search.descend(DVec3::new(1003.001, 2.0, 0.0), start.into());
+            assert!(foot.proper, "from {start:?}: {foot:?}");
+            assert!((foot.distance2 - 1e-6).abs() < 1e-12 && (foot.uv.y - 0.4).abs() < 1e-12, "{foot:?}");
+        }
+    }
 }
