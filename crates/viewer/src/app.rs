@@ -45,6 +45,7 @@ pub struct App {
     documents: Vec<Document>,
     /// Counts documents.
     next_id: u64,
+    next_order: u64,
     active: usize,
     /// The document that view and sections are of.
     shown: Option<u64>,
@@ -103,6 +104,8 @@ struct Load {
     held: Option<(Arc<trimloop_brep::Model>, Vec<ReadyPart>)>,
     /// Whether it comes to the front as soon as there is something to see.
     is_front: bool,
+    /// The number of its opening: tabs stand in that order, whichever file is read first.
+    order: u64,
 }
 
 const SIDES: [(&str, Key); 7] = [
@@ -141,6 +144,7 @@ impl App {
             state,
             documents: Vec::new(),
             next_id: 1,
+            next_order: 1,
             active: 0,
             loading: Vec::new(),
             viewport: Viewport::default(),

@@ -26,6 +26,8 @@ use crate::section::Caps;
 pub(crate) struct Document {
     /// Tells it from others, also of the same name.
     pub id: u64,
+    /// The number of its opening; tabs stand in that order.
+    pub order: u64,
     pub path: PathBuf,
     pub model: Arc<Model>,
     pub renderer: Renderer,
@@ -130,6 +132,7 @@ impl Document {
         }
         Ok(Self {
             id,
+            order: 0,
             path,
             model,
             renderer,

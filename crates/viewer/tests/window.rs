@@ -42,6 +42,12 @@ fn settle(harness: &mut Harness<'_, App>) {
     harness.run_steps(3);
 }
 
+/// Until it is known what the picture shows, which is found out when the view has been at rest for a moment.
+fn rest(harness: &mut Harness<'_, App>) {
+    std::thread::sleep(Duration::from_millis(100));
+    settle(harness);
+}
+
 fn fact(app: &App, name: &str) -> Option<String> {
     app.facts().into_iter().find(|(own, _)| own == name).map(|(_, value)| value)
 }
@@ -431,7 +437,9 @@ fn settings_and_recent_files_are_kept() {
 fn every_file_has_its_own_view_and_stays_in_front_when_others_go() {
     let files = ["cadquery/box.step", "cadquery/sphere.step", "cadquery/torus.step"].map(fixture);
     let Some(mut harness) = window(files.to_vec()) else { return };
+    // In the order in which they were asked for, whichever was read first.
     let names = harness.state().open_files();
+    assert_eq!(names, ["box.step", "sphere.step", "torus.step"]);
     harness.get_by_label(&names[1]).click();
     harness.run_steps(3);
     press(&mut harness, egui::Key::Num1);
@@ -481,7 +489,7 @@ fn the_wheel_goes_to_the_place_under_the_mouse_and_never_past_it() {
     let place = corner + DVec3::new(-0.5, 0.5, 0.0);
     let at = harness.state().place_of(place).expect("in the picture");
     harness.hover_at(at);
-    harness.step();
+    rest(&mut harness);
     for _ in 0..40 {
         harness.event(egui::Event::MouseWheel {
             unit: egui::MouseWheelUnit::Line,

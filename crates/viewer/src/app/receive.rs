@@ -17,7 +17,8 @@ impl App {
         // From now on: it may change while it is being read.
         self.watch.add(&path);
         let loading = Loading::start(path, is_reload, move || context.request_repaint());
-        self.loading.push(Load { loading, held: None, is_front });
+        self.loading.push(Load { loading, held: None, is_front, order: self.next_order });
+        self.next_order += 1;
     }
 
     /// Takes over what has been read, and reads again what changed.
@@ -110,13 +111,18 @@ impl App {
     /// A file's model is there: its tree can be shown, its parts are to come.
     pub(super) fn begin(&mut self, load: &mut Load, model: Arc<Model>) -> Result<(), RenderError> {
         let path = load.loading.path.clone();
-        let document = Document::new(&self.gpu, self.next_id, path.clone(), model)?;
+        let mut document = Document::new(&self.gpu, self.next_id, path.clone(), model)?;
+        document.order = load.order;
         load.loading.document = Some(self.next_id);
         self.next_id += 1;
         self.settings.remember(&path);
-        self.documents.push(document);
+        let place = self.documents.partition_point(|own| own.order < load.order);
+        self.documents.insert(place, document);
+        if place <= self.active && self.documents.len() > 1 {
+            self.active += 1;
+        }
         if load.is_front || self.documents.len() == 1 {
-            self.activate(self.documents.len() - 1);
+            self.activate(place);
         }
         Ok(())
     }
@@ -154,6 +160,7 @@ impl App {
         document.finish(seconds);
         let before = &self.documents[place];
         document.take_over(before);
+        document.order = before.order;
         let compared = self.comparing.take_if(|(id, ..)| *id == before.id).map(|(_, reference, _)| reference);
         let reference = compared.or_else(|| before.deviation.as_ref().map(|own| own.reference.clone()));
         if self.shown == Some(before.id) {
