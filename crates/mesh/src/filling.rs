@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
-use trimloop_geom::Surface;
+use trimloop_geom::{Interval, Surface};
 use trimloop_trim::{EdgeSamples, Tolerance, TrimDomain, TrimVertex, doubtful_quarters};
 
 use crate::crease::Creases;
@@ -17,6 +17,8 @@ pub(crate) struct Filling<'a> {
     surface: &'a Surface,
     tolerance: Tolerance,
     creases: Creases,
+    /// No second derivatives by u twice, by both and by v twice are longer than these, where that is known.
+    bends: Option<[f64; 3]>,
     fringe: Fringe,
     warp: Warp,
     triangulation: Triangulation,
@@ -58,30 +60,46 @@ impl SiteInSpace {
     }
 }
 
+/// An edge held against the surface.
+#[derive(Default)]
+struct MeasuredEdge {
+    /// Where it is to be split.
+    split: Option<DVec2>,
+    /// How far it is from the surface, at some places or at most.
+    off: f64,
+    /// Whether it is nowhere farther off than that.
+    is_bound: bool,
+}
+
 /// What is known of a triangle by its sides.
 #[derive(Clone, Copy, Default)]
 struct MeasuredSides {
     /// Whether one of them is to be split.
     broken: bool,
     count: u8,
+    bounds: u8,
     /// The sum of their deviations.
     sum: f64,
 }
 
 impl MeasuredSides {
-    fn add(&mut self, off: f64) {
+    fn add(&mut self, edge: &MeasuredEdge) {
         self.count += 1;
-        self.sum += off;
+        self.bounds += u8::from(edge.is_bound);
+        self.sum += edge.off;
     }
 
-    /// How far the surface is from the triangle's middle, where it is a quadric there (which is zero in the corners and
-    /// known in the middle of all sides).
-    fn middle(&self) -> Option<f64> {
-        (self.count == 3).then_some(self.sum * 4.0 / 9.0)
+    /// How far the surface is from the triangle's middle, where that need not be measured to know that it is within the
+    /// tolerance. A quadric that is zero in the corners has 4/9 of the sum of its values in the middles of the sides
+    /// there; what bounds second derivatives for the sides does so for the middle, in the same ratio.
+    fn middle(&self, tolerance_mm: f64) -> Option<f64> {
+        let off = self.sum * 4.0 / 9.0;
+        let enough = if self.bounds == 3 { tolerance_mm } else { CLEARLY_WITHIN * tolerance_mm };
+        (self.count == 3 && off <= enough).then_some(off)
     }
 }
 
-/// A triangle whose middle is as near as this part of the tolerance, by its sides, is not measured there.
+/// A triangle whose middle is as near as this part of the tolerance, by measures at its sides, is not measured there.
 const CLEARLY_WITHIN: f64 = 0.5;
 
 /// An edge across a crease is to be nearer than this part of the tolerance.
@@ -112,6 +130,7 @@ impl<'a> Filling<'a> {
             surface,
             tolerance,
             creases: Creases::new(surface, low, high),
+            bends: bends(surface, low, high),
             fringe,
             warp,
             sites: Vec::with_capacity(triangulation.len()),
@@ -235,15 +254,15 @@ impl<'a> Filling<'a> {
             if (fresh > 0 && a < fresh && b < fresh) || !(inside[faces[0]] || inside[faces[1]]) {
                 continue;
             }
-            let (at, off) = self.edge_violation(a, b);
-            match at {
+            let edge = self.measure_edge(a, b);
+            match edge.split {
                 Some(at) if self.is_open(at) => {
                     faces.iter().for_each(|&f| sides[f].broken = true);
                     out.push((at, a));
                 }
                 _ => {
-                    worst = worst.max(off);
-                    faces.iter().for_each(|&f| sides[f].add(off));
+                    worst = worst.max(edge.off);
+                    faces.iter().for_each(|&f| sides[f].add(&edge));
                 }
             }
         }
@@ -251,9 +270,7 @@ impl<'a> Filling<'a> {
             if !inside[face] || sides[face].broken || (fresh > 0 && t.iter().all(|&s| s < fresh)) {
                 continue;
             }
-            if let Some(off) = sides[face].middle()
-                && off <= CLEARLY_WITHIN * self.tolerance.linear_mm
-            {
+            if let Some(off) = sides[face].middle(self.tolerance.linear_mm) {
                 worst = worst.max(off);
                 continue;
             }
@@ -273,23 +290,26 @@ impl<'a> Filling<'a> {
         self.fringe.is_empty() || !self.fringe.holds(self.surface.point(self.warp.unmap(at)))
     }
 
-    /// The edge's middle if it is to be split, and its distance from the surface.
-    fn edge_violation(&self, a: u32, b: u32) -> (Option<DVec2>, f64) {
+    fn measure_edge(&self, a: u32, b: u32) -> MeasuredEdge {
         let (sa, sb) = (&self.sites[a as usize], &self.sites[b as usize]);
         if sa.point == sb.point {
-            return (None, 0.0);
+            return MeasuredEdge::default();
         }
-        let length = sa.position.distance(sb.position);
         let bound = self.tolerance.linear_mm;
+        let turned = self.turns(sa, sb) && sa.position.distance(sb.position) > self.shortest_turn_mm();
+        if let Some(off) = self.sag_bound(sa, sb).filter(|&off| off <= bound) {
+            return MeasuredEdge { split: turned.then(|| self.between(a, b, 0.5)), off, is_bound: true };
+        }
         // An edge that crosses a crease is split there, for its sides to lie on smooth pieces.
         let crossing = self.creases.crossing(sa.uv, sb.uv);
+        let measured = |split, off| MeasuredEdge { split, off, is_bound: false };
         let mut off = 0.0;
         if let Some((share, uv)) = crossing {
             let at = self.warp.map(uv);
             off = self.above(at, sa.on_surface().lerp(sb.on_surface(), share)).abs();
             // Between two crossings the crease runs on through a triangle, out of its edges' sight.
             if off > bound * CREASE_SHARE {
-                return (Some(at), off);
+                return measured(Some(at), off);
             }
         }
         let middle = self.off_chord(a, b, 0.5);
@@ -299,19 +319,31 @@ impl<'a> Filling<'a> {
         for quarter in doubtful_quarters(chord, normals, middle, bound) {
             off = off.max(self.off_chord(a, b, quarter).abs());
         }
-        let turned = !(sa.pole || sb.pole || sa.creased || sb.creased)
-            && sa.normal.dot(sb.normal) < (self.tolerance.angular_rad * 1.001).cos()
-            && sa.normal != DVec3::ZERO
-            && sb.normal != DVec3::ZERO;
-        let crossing = if turned && length > self.shortest_turn_mm() {
+        let crossing = if turned {
             crossing
         } else if off > bound {
             crossing.filter(|(share, _)| (0.1..=0.9).contains(share))
         } else {
-            return (None, off);
+            return measured(None, off);
         };
         let at = crossing.map_or_else(|| self.between(a, b, 0.5), |(_, uv)| self.warp.map(uv));
-        (Some(at), off)
+        measured(Some(at), off)
+    }
+
+    /// Whether the surface's normal turns too far from one site to the other.
+    fn turns(&self, a: &SiteInSpace, b: &SiteInSpace) -> bool {
+        !(a.pole || b.pole || a.creased || b.creased)
+            && a.normal.dot(b.normal) < (self.tolerance.angular_rad * 1.001).cos()
+            && a.normal != DVec3::ZERO
+            && b.normal != DVec3::ZERO
+    }
+
+    /// More than the surface can be from the chord between two sites, by its second derivatives: an eighth of what they
+    /// bend over the way from one to the other.
+    fn sag_bound(&self, a: &SiteInSpace, b: &SiteInSpace) -> Option<f64> {
+        let [uu, uv, vv] = self.bends.filter(|_| self.max_lift_mm <= self.tolerance.linear_mm)?;
+        let step = (b.uv - a.uv).abs();
+        Some((uu * step.x * step.x + 2.0 * uv * step.x * step.y + vv * step.y * step.y) / 8.0)
     }
 
     /// The warped point at a share of the way between two sites.
@@ -408,6 +440,12 @@ impl<'a> Filling<'a> {
             }
         }
     }
+}
+
+/// Bounds of the second derivatives of a surface over a domain.
+fn bends(surface: &Surface, low: DVec2, high: DVec2) -> Option<[f64; 3]> {
+    let Surface::Nurbs(nurbs) = surface else { return None };
+    nurbs.second_derivative_bounds([Interval::new(low.x, high.x), Interval::new(low.y, high.y)])
 }
 
 /// Whether the domain has a side that is a single point.

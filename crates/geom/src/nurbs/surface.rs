@@ -294,6 +294,40 @@ impl NurbsSurface {
         Aabb::from_points(rows.flat_map(row).copied())
     }
 
+    /// Bounds of the lengths of Suu, Suv and Svv over `domain`: the longest of their own control points that count there
+    /// (Piegl & Tiller eq. 3.8 and 3.24). `None` of rational surfaces, where a first derivative may jump inside of
+    /// `domain`, and where that is not inside the surface's own.
+    pub fn second_derivative_bounds(&self, domain: [Interval; 2]) -> Option<[f64; 3]> {
+        let data = &*self.0;
+        let inside =
+            |d: usize| data.domain[d].start <= domain[d].start && domain[d].end <= data.domain[d].end;
+        if !data.homogeneous.is_empty() || !inside(0) || !inside(1) {
+            return None;
+        }
+        let [along, across] = [0, 1].map(|d| DerivativeKnots::new(data, d, domain[d]));
+        let (along, across) = (along?, across?);
+        let columns = data.shape[1];
+        let at = |i: usize, j: usize| data.points[i * columns + j];
+        let mut most = [0.0_f64; 3];
+        for i in along.lines.clone() {
+            for j in across.lines.clone() {
+                if let Some([a, b]) = along.second(i) {
+                    let bend = (at(i + 2, j) - at(i + 1, j)) * b - (at(i + 1, j) - at(i, j)) * a;
+                    most[0] = most[0].max(bend.length());
+                }
+                if let Some([a, b]) = across.second(j) {
+                    let bend = (at(i, j + 2) - at(i, j + 1)) * b - (at(i, j + 1) - at(i, j)) * a;
+                    most[2] = most[2].max(bend.length());
+                }
+                if let (Some(a), Some(b)) = (along.first(i), across.first(j)) {
+                    let twist = at(i + 1, j + 1) - at(i + 1, j) - at(i, j + 1) + at(i, j);
+                    most[1] = most[1].max(twist.length() * a * b);
+                }
+            }
+        }
+        most.iter().all(|bound| bound.is_finite()).then_some(most)
+    }
+
     /// Points over the surface from which a global search starts.
     pub(crate) fn samples(&self) -> &SampleGrid {
         self.0.samples.get_or_init(|| SampleGrid::of_nurbs(self))
@@ -307,6 +341,43 @@ impl NurbsSurface {
     #[inline]
     fn settle(&self, uv: DVec2) -> DVec2 {
         DVec2::new(self.settle_along(0, uv.x), self.settle_along(1, uv.y))
+    }
+}
+
+/// The knots of one direction, by which differences of control points become those of derivatives.
+struct DerivativeKnots<'a> {
+    knots: &'a [f64],
+    degree: usize,
+    /// The control points that count.
+    lines: std::ops::Range<usize>,
+}
+
+impl<'a> DerivativeKnots<'a> {
+    /// `None` where a first derivative may jump inside of `range`.
+    fn new(data: &'a Data, d: usize, range: Interval) -> Option<Self> {
+        let (knots, degree, count) = (&data.knots[d][..], data.degrees[d], data.shape[d]);
+        let jumps = |run: &[f64]| run.len() >= degree && range.start < run[0] && run[0] < range.end;
+        if knots.chunk_by(|a, b| a == b).any(jumps) {
+            return None;
+        }
+        // A range that ends at a knot does not reach into the span behind it.
+        let first = find_span(knots, degree, count, range.start) - degree;
+        let last = knots[..=count].partition_point(|&k| k < range.end).clamp(degree + 1, count);
+        Some(Self { knots, degree, lines: first..last })
+    }
+
+    /// What the difference from the control point `i` to the next one is multiplied by.
+    fn first(&self, i: usize) -> Option<f64> {
+        let length = (i + 1 < self.lines.end).then(|| self.knots[i + self.degree + 1] - self.knots[i + 1])?;
+        (length > 0.0).then(|| self.degree as f64 / length)
+    }
+
+    /// Likewise that difference and the next one, for a control point of the second derivative.
+    fn second(&self, i: usize) -> Option<[f64; 2]> {
+        let (a, b) = (self.first(i)?, self.first(i + 1)?);
+        let length = self.knots[i + self.degree + 1] - self.knots[i + 2];
+        let share = (self.degree as f64 - 1.0) / length;
+        (length > 0.0).then_some([a * share, b * share])
     }
 }
 
@@ -427,4 +498,51 @@ fn contract_rows<P: Control, R: Row, const ORDER: usize, const COLUMNS: usize>(
         }
     }
     s
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn second_derivatives_keep_below_their_bounds() {
+        let knots =
+            [vec![0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0, 1.0], vec![0.0, 0.0, 0.0, 1.0, 1.5, 3.0, 3.0, 3.0]];
+        let height = |i: usize, j: usize| ((3 * i + 5 * j) % 7) as f64 * 0.3;
+        let points = (0..25).map(|k| DVec3::new((k / 5) as f64, (k % 5) as f64 * 0.8, height(k / 5, k % 5)));
+        let surface =
+            NurbsSurface::new([3, 2], 5, 5, points.collect(), Vec::new(), knots).expect("a surface");
+        for domain in [[0.0, 1.0, 0.0, 3.0], [0.0, 0.4, 1.0, 1.5], [0.5, 0.9, 0.2, 1.2]] {
+            let domain = [Interval::new(domain[0], domain[1]), Interval::new(domain[2], domain[3])];
+            let bounds = surface.second_derivative_bounds(domain).expect("polynomial");
+            let mut most = [0.0_f64; 3];
+            for k in 0..=4000 {
+                // Golden steps, and a hair inside: on a knot the derivatives are those behind it.
+                let share = |step: f64| (k as f64 * step).fract() * 0.999_998 + 1e-6;
+                let uv = DVec2::new(
+                    domain[0].at(share(0.618_033_988_7)),
+                    domain[1].at(k as f64 / 4000.0 * 0.999_998 + 1e-6),
+                );
+                let at = surface.derivatives(uv);
+                let lengths = [at.duu, at.duv, at.dvv].map(DVec3::length);
+                most = [0, 1, 2].map(|d| most[d].max(lengths[d]));
+            }
+            for d in 0..3 {
+                assert!(most[d] <= bounds[d] * (1.0 + 1e-9), "{d}: {most:?} against {bounds:?}");
+                assert!(bounds[d] < 4.0 * most[d], "{d}: {most:?} against {bounds:?}");
+            }
+        }
+        let beyond = [Interval::new(-0.1, 0.5), Interval::new(0.0, 1.0)];
+        assert_eq!(surface.second_derivative_bounds(beyond), None);
+    }
+
+    #[test]
+    fn there_is_no_bound_across_a_crease() {
+        let knots = [vec![0.0, 0.0, 1.0, 2.0, 2.0], vec![0.0, 0.0, 1.0, 1.0]];
+        let points = (0..6).map(|k| DVec3::new((k / 2) as f64, (k % 2) as f64, f64::from(k / 2 == 1)));
+        let roof = NurbsSurface::new([1, 1], 3, 2, points.collect(), Vec::new(), knots).expect("a roof");
+        let domain = |start: f64, end: f64| [Interval::new(start, end), Interval::new(0.0, 1.0)];
+        assert_eq!(roof.second_derivative_bounds(domain(0.0, 2.0)), None);
+        assert_eq!(roof.second_derivative_bounds(domain(0.0, 1.0)), Some([0.0; 3]));
+    }
 }
