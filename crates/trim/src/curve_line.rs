@@ -52,7 +52,11 @@ impl CurveLine<'_> {
             };
             let mut next = LinePoint { t, point, sag: 0.0 };
             if let Some(&near) = line.last() {
-                next.sag = match self.sag_bound(&near, &next) {
+                // Vertices may lie beside their curve.
+                let beside = |t: f64, end: DVec3| self.curve.point(t).distance(end);
+                let first = if i == 1 { beside(starts[0], self.ends[0]) } else { 0.0 };
+                let gap = first.max(if i == last { beside(t, self.ends[1]) } else { 0.0 });
+                next.sag = match self.sag_bound(&near, &next, gap) {
                     Some(sag) => sag,
                     None => self.halve(near, next, &mut line),
                 };
@@ -62,15 +66,15 @@ impl CurveLine<'_> {
         line
     }
 
-    /// More than the curve can be from its chord, where it is a polynomial between the chord's ends and that is enough to
-    /// know that it keeps well within the tolerance.
-    fn sag_bound(&self, a: &LinePoint, b: &LinePoint) -> Option<f64> {
+    /// More than the curve can be from its chord, whose ends lie up to `gap` beside it, where the curve is a polynomial
+    /// between them and that is enough to know that it keeps well within the tolerance.
+    fn sag_bound(&self, a: &LinePoint, b: &LinePoint, gap: f64) -> Option<f64> {
         let Curve::Nurbs(nurbs) = self.curve else { return None };
         let step = (b.t - a.t).abs();
         let bend = nurbs.second_derivative_bound((a.t + b.t) * 0.5)? * step * step;
-        let sag = bend / 8.0;
+        let sag = bend / 8.0 + gap;
         // The curve's velocity is the chord's on average, and changes by no more than `bend` (both over the step).
-        let slowest = a.point.distance(b.point) - bend;
+        let slowest = a.point.distance(b.point) - 2.0 * gap - bend;
         let keeps =
             sag <= self.tolerance.linear_mm * 0.5 && bend <= slowest * self.tolerance.angular_rad * 0.5;
         keeps.then_some(sag)
@@ -343,6 +347,27 @@ mod tests {
         assert_eq!(count([0.0, 1.0, 2.0, 3.0]), 2);
         // Its middle lies on the chord.
         assert!(count([0.0, 1.0, -1.0, 0.0]) > 8);
+    }
+
+    #[test]
+    fn a_vertex_beside_its_curve_leaves_the_rest_of_the_curve_alone() {
+        let points = (0..4).map(|k| DVec3::X * f64::from(k) * 10.0).collect();
+        let knots = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+        let curve = Curve::Nurbs(NurbsCurve::new(3, points, Vec::new(), knots).expect("a curve"));
+        let line = CurveLine {
+            curve: &curve,
+            range: Interval::new(0.0, 1.0),
+            same_sense: true,
+            ends: [DVec3::Y, DVec3::X * 30.0],
+            closed: false,
+            singular: Vec::new(),
+            snap: 0.0,
+            tolerance: Tolerance { linear_mm: 0.1, angular_rad: 0.5 },
+        };
+        let points = line.points();
+        let kept: Vec<DVec3> = line.thinned(&points).into_iter().map(|k| points[k].point).collect();
+        // The chord that ends at the vertex is short, and the next ones are on the curve.
+        assert!(kept[1].x < 5.0 && kept[1].y == 0.0, "{kept:?}");
     }
 
     #[test]
