@@ -449,28 +449,6 @@ fn contract<P: Control, R: Row, const ORDER: usize, const FIXED: usize>(
     degrees: [usize; 2],
 ) -> [P; 6] {
     let [pu, pv] = if FIXED > 0 { [FIXED; 2] } else { degrees };
-    // Rows of a length that is known when compiling are summed up without a loop.
-    match if FIXED > 0 { 0 } else { pv } {
-        1 => contract_rows::<P, R, ORDER, 1>(points, columns, bu, bv, [pu, 1]),
-        2 => contract_rows::<P, R, ORDER, 2>(points, columns, bu, bv, [pu, 2]),
-        3 => contract_rows::<P, R, ORDER, 3>(points, columns, bu, bv, [pu, 3]),
-        4 => contract_rows::<P, R, ORDER, 4>(points, columns, bu, bv, [pu, 4]),
-        5 => contract_rows::<P, R, ORDER, 5>(points, columns, bu, bv, [pu, 5]),
-        6 => contract_rows::<P, R, ORDER, 6>(points, columns, bu, bv, [pu, 6]),
-        _ => contract_rows::<P, R, ORDER, FIXED>(points, columns, bu, bv, [pu, pv]),
-    }
-}
-
-/// `COLUMNS` is the degree along v where it is known when compiling, else 0.
-#[inline]
-fn contract_rows<P: Control, R: Row, const ORDER: usize, const COLUMNS: usize>(
-    points: &[P],
-    columns: usize,
-    bu: &Basis<R>,
-    bv: &Basis<R>,
-    [pu, pv]: [usize; 2],
-) -> [P; 6] {
-    let pv = if COLUMNS > 0 { COLUMNS } else { pv };
     let [u0, u1, u2] = bu.rows.each_ref().map(|r| &r.as_ref()[..=pu]);
     let [v0, v1, v2] = bv.rows.each_ref().map(|r| &r.as_ref()[..=pv]);
     let mut s = [P::ZERO; 6];
