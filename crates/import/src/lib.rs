@@ -33,6 +33,7 @@
 mod hint;
 mod iges;
 mod parallel;
+mod run;
 mod sew;
 mod sniff;
 mod split;

@@ -5,14 +5,30 @@ use std::sync::Arc;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use trimloop_brep::{Body, BodyKind, Diagnostic, Diagnostics, Edge, EdgeId, Part, Severity, VertexId};
-use trimloop_geom::Curve;
+use trimloop_geom::{Aabb, Curve};
 
 use crate::hint::over;
 use crate::parallel::map_each;
 
-/// How far apart edges may lie to be one, millimetres: the nearest are joined first. The file's uncertainty is no
-/// good guide, it is often the modeller's and not the exporter's.
-const REACHES_MM: [f64; 3] = [1e-6, 1e-3, 2e-2];
+/// How far apart edges may lie to be one, millimetres. The file's uncertainty is no good guide, it is often the
+/// modeller's and not the exporter's.
+const WIDEST_MM: f64 = 2e-2;
+
+/// The same, as a share of the size of all that is sewn: in a part of a tenth of a millimetre, as metres that are called
+/// millimetres make it, edges 0.02 mm apart are not one.
+const WIDEST_SHARE: f64 = 2e-4;
+
+/// The reaches within which edges of a body are joined, the nearest first, millimetres.
+pub(crate) fn reaches_mm(part: &Part, body: &Body, widest_mm: f64) -> [f64; 3] {
+    let edges = edges_of(part, body).map(|id| &part.edges[id as usize]);
+    let points = edges.flat_map(|edge| {
+        let [start, end] = [edge.start, edge.end].map(|id| part.vertices[id as usize].point);
+        [start, edge.curve.point(edge.range.at(0.5)), end]
+    });
+    let most = WIDEST_SHARE * Aabb::from_points(points).diagonal();
+    let most = if most.is_finite() { most } else { 0.0 };
+    [1e-6, 1e-3, widest_mm].map(|reach| reach.min(most))
+}
 
 /// Makes faces of a solid share the edges that coincide. Edges that two faces share already stay as they are.
 pub(crate) fn sew(part: &mut Part, diagnostics: &mut Diagnostics) {
@@ -20,7 +36,8 @@ pub(crate) fn sew(part: &mut Part, diagnostics: &mut Diagnostics) {
         if part.bodies[index].kind != BodyKind::Solid {
             continue;
         }
-        let sewn = sew_body(part, index, &REACHES_MM);
+        let reaches = reaches_mm(part, &part.bodies[index], WIDEST_MM);
+        let sewn = sew_body(part, index, &reaches);
         if sewn > 0 {
             let entity = part.bodies[index].entity;
             let message = format!("{sewn} edges of solid {entity} that lie on others were joined with them.");
@@ -164,17 +181,21 @@ fn coincident_vertices(part: &Part, free: &[EdgeId], reach: f64) -> FxHashMap<Ve
 
 /// Whether two edges between the same vertices run along the same line.
 fn coincide(a: &Edge, b: &Edge, reach: f64) -> bool {
-    // Mostly they have the same parameters, one way or the other, and nothing need be searched.
     let at = |edge: &Edge, share: f64| edge.curve.point(edge.range.at(share));
+    let (a, b, shares) = match [stations(a), stations(b)] {
+        [ours, theirs] if ours.len() >= theirs.len() => (a, b, ours),
+        [_, theirs] => (b, a, theirs),
+    };
+    // Mostly they have the same parameters, one way or the other, and nothing need be searched.
     let alike = |turned: bool| {
-        SHARES.iter().all(|&s| at(a, s).distance(at(b, if turned { 1.0 - s } else { s })) <= reach)
+        shares.iter().all(|&s| at(a, s).distance(at(b, if turned { 1.0 - s } else { s })) <= reach)
     };
     if alike(false) || alike(true) {
         return true;
     }
     // Where they do not, the feet still lie in about the same places.
     let turned = (at(a, 0.0).distance(at(b, 0.0)) > at(a, 0.0).distance(at(b, 1.0))) && a.start != a.end;
-    SHARES.iter().all(|&share| {
+    shares.iter().all(|&share| {
         let point = at(a, share);
         let start = b.range.at(if turned { 1.0 - share } else { share });
         if comes_near(b, point, start, reach) {
@@ -234,8 +255,19 @@ pub(crate) fn nearest_from(edge: &Edge, point: DVec3, mut t: f64, reach: f64) ->
     if edge.curve.point(t).distance(point) <= reach { Nearest::Within(t) } else { Nearest::Unsettled }
 }
 
-/// Where along edges they are held against each other.
-const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
+/// Where along an edge others are held against it, as shares of its range: between all of its curve's knots and corners,
+/// and at three places at least.
+fn stations(edge: &Edge) -> Vec<f64> {
+    let breaks = edge.curve.breakpoints(edge.range);
+    let spans = breaks.len().saturating_sub(1).max(1);
+    let parts = if spans == 1 { 4 } else { 2 };
+    let share = |t: f64| (t - edge.range.start) / edge.range.length();
+    let inside = |pair: &[f64]| {
+        let [from, to] = [pair[0], pair[1]].map(share);
+        (0..parts).map(move |k| from + (to - from) * f64::from(k) / f64::from(parts))
+    };
+    breaks.windows(2).flat_map(inside).skip(1).collect()
+}
 
 /// Where along an edge, as a share of its range, its curve's parameter `t` or the same a few turns away lies.
 pub(crate) fn share_at(edge: &Edge, mut t: f64) -> Option<f64> {
@@ -258,4 +290,30 @@ fn turns_back(a: &Edge, b: &Edge) -> bool {
     let foot = b.curve.project(a.curve.point(t), None);
     let along_b = b.curve.derivatives(foot.t)[1];
     (along_a.dot(along_b) < 0.0) != (a.same_sense != b.same_sense)
+}
+
+#[cfg(test)]
+mod tests {
+    use trimloop_brep::EntityRef;
+    use trimloop_geom::{Interval, Polyline};
+
+    use super::*;
+
+    fn edge(points: &[[f64; 3]]) -> Edge {
+        let polyline = Polyline { points: points.iter().copied().map(DVec3::from).collect() };
+        let range = Interval::new(0.0, (points.len() - 1) as f64);
+        let curve = std::sync::Arc::new(Curve::Polyline(polyline));
+        Edge { entity: EntityRef::None, start: 0, end: 1, curve, range, same_sense: true }
+    }
+
+    /// The two halves of a rim with a long straight side each: the sides coincide, the halves do not.
+    #[test]
+    fn edges_that_coincide_for_the_most_part_are_two() {
+        let side = [[0.0, 0.0, 0.0], [0.0, 0.0, 9.0], [0.0, 0.0, 18.0], [0.0, 0.0, 27.0]];
+        let rim = |y: f64| edge(&[&side[..], &[[1.0, y, 27.0], [2.0, 0.0, 27.0]]].concat());
+        assert!(coincide(&rim(1.0), &rim(1.0), 1e-6));
+        assert!(!coincide(&rim(1.0), &rim(-1.0), 1e-6));
+        let turned = edge(&[[2.0, 0.0, 27.0], [1.0, 1.0, 27.0], side[3], side[0]]);
+        assert!(coincide(&rim(1.0), &turned, 1e-6), "with other parameters, the other way");
+    }
 }

@@ -77,12 +77,61 @@ fn patch(deck: &mut Deck, [a, b, c, d]: [Point; 4], color: i32) -> usize {
 /// The sides of a cube of one inch.
 fn cube(colors: [i32; 6]) -> Deck {
     let mut deck = Deck::default();
-    let corner = |k: usize| [(k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64];
-    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-    for (side, color) in sides.into_iter().zip(colors) {
-        patch(&mut deck, side.map(corner), color);
+    for (side, color) in cube_sides().into_iter().zip(colors) {
+        patch(&mut deck, side, color);
     }
     deck
+}
+
+fn cube_sides() -> [[Point; 4]; 6] {
+    let corner = |k: usize| [k & 1, k >> 1 & 1, k >> 2].map(|bit| bit as f64);
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    sides.map(|side| side.map(corner))
+}
+
+/// How many edges the only body of a deck has, a solid that closes.
+fn edges_of_solid(deck: &Deck) -> usize {
+    let model = model(deck);
+    let [part] = &model.parts[..] else { panic!("{} parts", model.parts.len()) };
+    let [body] = &part.bodies[..] else { panic!("{} bodies", part.bodies.len()) };
+    assert_eq!((body.kind, body.shells[0].closed), (BodyKind::Solid, true));
+    let coedges = part.faces.iter().flat_map(|face| &face.loops).flat_map(|bound| &bound.coedges);
+    coedges.map(|coedge| coedge.edge).collect::<std::collections::BTreeSet<u32>>().len()
+}
+
+/// Metres that are called millimetres: what is near is a matter of the part's size.
+#[test]
+fn sheets_of_a_tiny_part_are_not_sewn_across_a_tenth_of_it() {
+    let mut deck = Deck::default();
+    let size = 4e-3;
+    for z in [0.0, 0.1 * size] {
+        patch(&mut deck, [[0.0, 0.0, z], [size, 0.0, z], [size, size, z], [0.0, size, z]], 0);
+    }
+    let model = model(&deck);
+    let faces = &model.parts[0].faces;
+    let coedges = faces.iter().flat_map(|face| &face.loops).flat_map(|bound| &bound.coedges);
+    assert_eq!(coedges.map(|coedge| coedge.edge).collect::<std::collections::BTreeSet<u32>>().len(), 8);
+}
+
+/// Each face's boundary is one spline, which begins at a corner that no other face's boundary begins at.
+#[test]
+fn a_boundary_of_one_curve_is_cut_at_its_corners() {
+    let mut deck = Deck::default();
+    for (k, mut side) in cube_sides().into_iter().enumerate() {
+        side.rotate_left(k % 4);
+        let [a, b, c, d] = side;
+        let surface = format!(
+            "1,1,1,1,0,0,1,0,0,0.,0.,1.,1.,0.,0.,1.,1.,1.,1.,1.,1.,{},0.,1.,0.,1.",
+            coordinates(&[a, b, d, c])
+        );
+        let surface = deck.add(128, "00010000", 0, &surface);
+        let points = coordinates(&[a, b, c, d, a]);
+        let spline = format!("4,1,0,1,1,0,0.,0.,1.,2.,3.,4.,4.,1.,1.,1.,1.,1.,{points},0.,4.,0.,0.,0.");
+        let spline = deck.add(126, "00010000", 0, &spline);
+        let boundary = deck.add(142, "00010000", 0, &format!("0,{surface},0,{spline},2"));
+        deck.add(144, "00000000", 0, &format!("{surface},1,0,{boundary}"));
+    }
+    assert_eq!(edges_of_solid(&deck), 12);
 }
 
 #[test]

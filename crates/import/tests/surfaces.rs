@@ -43,6 +43,29 @@ fn apple_and_lemon() {
     }
 }
 
+/// `TOROIDAL_SURFACE` does not say which part is meant where it crosses itself; the edges do.
+#[test]
+fn a_torus_that_crosses_itself_is_used_where_the_edges_lie() {
+    let crossing = (-0.5f64).acos();
+    for (v, range) in
+        [(0.4f64, Interval::new(-crossing, crossing)), (PI, Interval::new(crossing, TAU - crossing))]
+    {
+        let (radius, height) = (1.0 + 2.0 * v.cos(), 2.0 * v.sin());
+        let data = format!(
+            "#1=TOROIDAL_SURFACE('',#801,1.,2.);#2=CARTESIAN_POINT('',(0.,0.,{height:?}));
+             #3=AXIS2_PLACEMENT_3D('',#2,$,$);#4=CIRCLE('',#3,{:?});#5=CARTESIAN_POINT('',({:?},0.,{height:?}));
+             #6=VERTEX_POINT('',#5);#7=EDGE_CURVE('',#6,#6,#4,.T.);#8=ORIENTED_EDGE('',*,*,#7,.T.);
+             #9=EDGE_LOOP('',(#8));#10=FACE_OUTER_BOUND('',#9,.T.);#700=ADVANCED_FACE('',(#10),#1,.T.);
+             #701=OPEN_SHELL('',(#700));#702=SHELL_BASED_SURFACE_MODEL('',(#701));",
+            radius.abs(),
+            radius.abs(),
+        );
+        let part = part("#702", &data);
+        let Surface::Torus { v_range: Some(v_range), .. } = surface(&part.faces[0]) else { panic!() };
+        assert!((v_range.start - range.start).abs() < 1e-12 && (v_range.end - range.end).abs() < 1e-12);
+    }
+}
+
 #[test]
 fn extrusion_goes_as_far_as_its_vector_is_long() {
     let data = "#1=SURFACE_OF_LINEAR_EXTRUSION('',#2,#3);#2=CIRCLE('',#801,2.);#3=VECTOR('',#4,7.);
@@ -176,6 +199,33 @@ fn surface_within_curves() {
     assert_eq!(loops.iter().map(|bound| bound.outer).collect::<Vec<_>>(), [true, false]);
     let edge = &part.edges[loops[0].coedges[0].edge as usize];
     assert_eq!((edge.start == edge.end, edge.range.length()), (true, TAU));
+}
+
+/// A trimmed curve against its circle that names its ends in the order in which it runs: the other segments tell.
+#[test]
+fn segments_of_a_boundary_run_as_they_meet() {
+    let part = part(
+        "#9",
+        "#1=PLANE('',#801);#2=CIRCLE('',#801,5.);
+         #3=TRIMMED_CURVE('',#2,(PARAMETER_VALUE(3.141592653589793)),(PARAMETER_VALUE(0.)),.F.,.PARAMETER.);
+         #4=COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#3);
+         #10=CARTESIAN_POINT('',(-5.,0.,0.));#11=CARTESIAN_POINT('',(-5.,-3.,0.));
+         #12=CARTESIAN_POINT('',(5.,-3.,0.));#13=CARTESIAN_POINT('',(5.,0.,0.));
+         #14=POLYLINE('',(#10,#11));#15=POLYLINE('',(#12,#11));#16=POLYLINE('',(#12,#13));
+         #17=COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#14);#18=COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.F.,#15);
+         #19=COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.F.,#16);
+         #7=OUTER_BOUNDARY_CURVE('',(#17,#4,#19,#18),.F.);
+         #8=CURVE_BOUNDED_SURFACE('',#1,(#7),.F.);#9=GEOMETRIC_SET('',(#8));",
+    );
+    let coedges = &part.faces[0].loops[0].coedges;
+    for (k, coedge) in coedges.iter().enumerate() {
+        let ends = |coedge: &trimloop_brep::Coedge| {
+            let edge = &part.edges[coedge.edge as usize];
+            let ends = [edge.range.start, edge.range.end].map(|t| edge.curve.point(t));
+            if edge.same_sense != coedge.reversed { ends } else { [ends[1], ends[0]] }
+        };
+        near(ends(coedge)[1], ends(&coedges[(k + 1) % coedges.len()])[0]);
+    }
 }
 
 #[test]

@@ -320,3 +320,34 @@ fn a_body_put_together_from_loose_faces_within_another_is_its_cavity() {
     let exact = 4.0 / 3.0 * PI * (1000.0 - 216.0 + 8.0 + 1.0 + 1.0);
     assert!((total / exact - 1.0).abs() < 0.01, "{total}, not {exact}");
 }
+
+/// The loop leads through the apex; run the wrong way, it would go round the other half.
+#[test]
+fn a_half_cone_is_the_same_half_whichever_way_its_loop_runs() {
+    let (radius, height) = (3.0, 4.0);
+    for backwards in [false, true] {
+        let mut builder = Builder::default();
+        let points = [DVec3::ZERO, DVec3::new(radius, 0.0, height), DVec3::new(-radius, 0.0, height)];
+        let [apex, first, last] = points.map(|point| builder.vertex(point));
+        let line = |from: usize, to: usize| Curve::Line {
+            origin: points[from],
+            direction: points[to] - points[from],
+        };
+        let unit = Interval::new(0.0, 1.0);
+        let down = builder.edge(apex, first, line(0, 1), unit);
+        let frame = Frame { origin: DVec3::Z * height, ..Frame::WORLD };
+        let round = builder.edge(first, last, Curve::Circle { frame, radius }, Interval::new(0.0, PI));
+        let up = builder.edge(last, apex, line(2, 0), unit);
+        let cone =
+            Surface::Cone { frame: Frame::WORLD, radius: 0.0, half_angle_rad: (radius / height).atan() };
+        let mut bound = [(down, backwards), (round, backwards), (up, backwards)];
+        if backwards {
+            bound.reverse();
+        }
+        builder.face(cone, true, &[&bound]);
+        let mesh = builder.mesh(false, 0.001);
+        assert_eq!(mesh.faces[0].status, FaceStatus::Exact);
+        let expected = 0.5 * PI * radius * radius.hypot(height);
+        assert!((area(&mesh) / expected - 1.0).abs() < 1e-2, "{} for {expected}", area(&mesh));
+    }
+}

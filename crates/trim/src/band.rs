@@ -66,7 +66,7 @@ fn flat_piece(chart: &Chart<'_>, loops: Vec<UnrolledLoop>, domain: &mut TrimDoma
 }
 
 /// Whether the surface bounds a volume of itself: sphere, torus.
-fn closes_up(surface: &Surface) -> bool {
+pub(crate) fn closes_up(surface: &Surface) -> bool {
     let [u, v] = surface.periods();
     let [du, dv] = surface.domain();
     let singular = |constant: Direction, at: f64, range: f64| {

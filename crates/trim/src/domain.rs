@@ -1,7 +1,7 @@
 //! A face's inside as polygons in its surface's parameter plane.
 
 use glam::{DVec2, DVec3};
-use trimloop_brep::{Diagnostic, Diagnostics, Face, FaceGeometry, FaceId, Part, Severity};
+use trimloop_brep::{Diagnostic, Diagnostics, Face, FaceGeometry, FaceId, Loop, Part, Severity};
 use trimloop_geom::Surface;
 
 use crate::band::{self, Chart};
@@ -85,9 +85,12 @@ impl TrimDomain {
     ) -> Result<Self, TrimError> {
         let face_ref = &part.faces[face as usize];
         let FaceGeometry::Surface(surface) = &face_ref.geometry else { return Err(TrimError::NoSurface) };
-        let loops = unroll_loops(part, face, samples, surface, tolerance.clamped())?;
+        let (loops, turned) = unroll_loops(part, face, samples, surface, tolerance.clamped())?;
         let base = samples.points.len() as u32;
         let mut domain = Self { own_base: base, ..Self::default() };
+        if turned {
+            domain.note_directions(face_ref, 1, loops.len());
+        }
         let chart = Chart { surface, tolerance: tolerance.clamped() };
         band::assemble(&chart, loops, &mut domain)?;
         domain.settle_directions(face_ref);
@@ -132,31 +135,47 @@ impl TrimDomain {
             }
         }
         if turned > 0 {
-            let message = format!(
-                "{turned} of the face's {} loops run in the wrong direction; turned",
-                self.loops.len()
-            );
-            self.diagnostics.push(
-                Diagnostic::new(Severity::Info, "loop-direction", face.entity, message).on_face(face.entity),
-            );
+            self.note_directions(face, turned, self.loops.len());
         }
+    }
+
+    fn note_directions(&mut self, face: &Face, turned: usize, loops: usize) {
+        let message = format!("{turned} of the face's {loops} loops run in the wrong direction; turned");
+        self.diagnostics.push(
+            Diagnostic::new(Severity::Info, "loop-direction", face.entity, message).on_face(face.entity),
+        );
     }
 }
 
+/// The loops in the parameter plane, and whether one of them was turned to close.
 fn unroll_loops(
     part: &Part,
     face: FaceId,
     samples: &EdgeSamples,
     surface: &Surface,
     tolerance: Tolerance,
-) -> Result<Vec<UnrolledLoop>, TrimError> {
+) -> Result<(Vec<UnrolledLoop>, bool), TrimError> {
     let face_ref = &part.faces[face as usize];
-    let mut loops = Vec::new();
-    for l in face_ref.loops.iter().filter(|l| !l.coedges.is_empty()) {
-        let unrolled = unroll(l, face, !face_ref.same_sense, samples, surface, tolerance.angular_rad)?;
-        if unrolled.vertices.len() > 1 {
-            loops.push(unrolled);
+    let bounds: Vec<_> = face_ref.loops.iter().filter(|l| !l.coedges.is_empty()).collect();
+    let unrolled =
+        |bound: &Loop, reverse: bool| unroll(bound, face, reverse, samples, surface, tolerance.angular_rad);
+    let mut loops = Vec::with_capacity(bounds.len());
+    for bound in &bounds {
+        loops.push(unrolled(bound, !face_ref.same_sense)?);
+    }
+    // A loop through a pole that goes once round a surface without another end passes the pole on the wrong side.
+    let mut around = (0..loops.len()).filter(|&k| loops[k].winding != [0, 0]);
+    let mut turned = false;
+    if let (Some(only), None) = (around.next(), around.next())
+        && loops[only].through_pole
+        && !band::closes_up(surface)
+    {
+        let other = unrolled(bounds[only], face_ref.same_sense)?;
+        turned = other.winding == [0, 0];
+        if turned {
+            loops[only] = other;
         }
     }
-    Ok(loops)
+    loops.retain(|l| l.vertices.len() > 1);
+    Ok((loops, turned))
 }

@@ -15,6 +15,8 @@ pub(crate) struct UnrolledLoop {
     pub winding: [i32; 2],
     /// Whether it runs over some edge both ways: it closes over a seam of its own, and its inside is what it encloses.
     pub seamed: bool,
+    /// Whether it leads through a pole, which it passes on the side that its direction tells.
+    pub through_pole: bool,
 }
 
 /// A sample before unrolling.
@@ -48,9 +50,10 @@ pub(crate) fn unroll(
     }
     let seamed =
         l.coedges.iter().any(|c| l.coedges.iter().any(|d| d.edge == c.edge && d.reversed != c.reversed));
+    let through_pole = raw.iter().any(|r| r.singular.is_some());
     let out = Vec::with_capacity(raw.len() + 4);
     let unroller = Unroller { periods, singularities: &singularities, angular_rad, out };
-    Ok(UnrolledLoop { seamed, ..unroller.run(&raw) })
+    Ok(UnrolledLoop { seamed, through_pole, ..unroller.run(&raw) })
 }
 
 fn gather(l: &Loop, face: FaceId, samples: &EdgeSamples) -> Result<Vec<Raw>, TrimError> {
@@ -113,7 +116,7 @@ impl Unroller<'_> {
         UnrolledLoop {
             vertices: self.out,
             winding: [turns(end.x - first.x, self.periods[0]), turns(end.y - first.y, self.periods[1])],
-            seamed: false,
+            ..UnrolledLoop::default()
         }
     }
 

@@ -12,7 +12,7 @@ use trimloop_geom::Surface;
 
 use super::look::levels_of;
 use super::shape::ShapeBuilder;
-use crate::sew::{free_edges, sew_body};
+use crate::sew::{free_edges, reaches_mm, sew_body};
 use crate::split::split_edges;
 
 /// The least and the most that edges may lie apart to be one, millimetres, whatever the file states.
@@ -69,11 +69,11 @@ fn sew(part: &mut Part, faces: &[FaceId]) {
     part.bodies.push(body(faces.to_vec()));
     let index = part.bodies.len() - 1;
     let widest = part.uncertainty_mm.clamp(LEAST_REACH_MM, MOST_REACH_MM);
-    let reaches = [1e-6, 1e-3, widest];
+    let reaches = reaches_mm(part, &part.bodies[index], widest);
     sew_body(part, index, &reaches);
     let mut uses = vec![0u32; part.edges.len()];
     let free = free_edges(part, &part.bodies[index], &mut uses);
-    if free.len() > 1 && split_edges(part, faces, &free, widest) > 0 {
+    if free.len() > 1 && split_edges(part, faces, &free, reaches[2]) > 0 {
         sew_body(part, index, &reaches);
     }
     part.bodies.pop();

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
-use trimloop_geom::{Curve, Direction, Interval, Surface};
+use trimloop_geom::{Curve, Direction, Interval, NurbsCurve, Surface};
 
 use super::curve::Piece;
 use super::reader::{Fault, Outcome, Parameters, Reader};
 use super::surface::Ground;
 use crate::hint::over;
+use crate::run::turned;
 
 /// Reads faces; changes nothing, so that many can be read at once.
 #[derive(Clone, Copy)]
@@ -62,11 +63,9 @@ impl BoundDraft {
             return Err(Fault::new(entry, "is a boundary of no length"));
         }
         let turned = directions(&pieces);
-        Ok(Self { entry, outer, pieces: pieces.into_iter().zip(turned).collect() })
+        Ok(Self { entry, outer, pieces: cut_at_corners(pieces.into_iter().zip(turned)) })
     }
-}
 
-impl BoundDraft {
     /// The loop as it is, or run the other way where the normal that it runs around is not `same`.
     fn about(mut self, same: bool) -> Self {
         if !same {
@@ -365,7 +364,7 @@ fn natural_bound(surface: &Arc<Surface>, domain: [Interval; 2], entry: u32) -> O
         side(Direction::V, v.end, true)?,
         side(Direction::U, u.start, true)?,
     ];
-    let pieces: Vec<_> = sides.into_iter().filter(|(piece, _)| !is_point(piece)).collect();
+    let pieces = cut_at_corners(sides.into_iter().filter(|(piece, _)| !is_point(piece)));
     (!pieces.is_empty()).then_some(BoundDraft { entry, outer: true, pieces })
 }
 
@@ -426,18 +425,60 @@ pub(crate) fn chained(pieces: Vec<Piece>) -> Vec<Piece> {
 
 /// Per piece whether the loop runs it backwards.
 fn directions(pieces: &[Piece]) -> Vec<bool> {
-    let ends: Vec<[DVec3; 2]> = pieces.iter().map(Piece::ends).collect();
-    let mut out = vec![false; pieces.len()];
-    if pieces.len() < 2 {
-        return out;
-    }
-    let nearest = |from: DVec3, to: &[DVec3; 2]| from.distance(to[0]).min(from.distance(to[1]));
-    // Where both of the first one's ends touch the second, it runs as it is written.
-    out[0] = nearest(ends[0][1], &ends[1]) > nearest(ends[0][0], &ends[1]) + 1e-9;
-    let mut at = ends[0][usize::from(!out[0])];
-    for k in 1..pieces.len() {
-        out[k] = at.distance(ends[k][1]) < at.distance(ends[k][0]) - 1e-9;
-        at = ends[k][usize::from(!out[k])];
+    let runs: Vec<[DVec3; 3]> =
+        pieces.iter().map(|piece| [0.0, 0.5, 1.0].map(|at| piece.curve.point(piece.range.at(at)))).collect();
+    turned(&runs)
+}
+
+/// Turns sharper than this are corners, where faces beside this one may begin and end.
+const CORNER_RAD: f64 = 0.35;
+
+/// The pieces of a loop, cut where their curves have corners.
+fn cut_at_corners(pieces: impl Iterator<Item = (Piece, bool)>) -> Vec<(Piece, bool)> {
+    let mut out = Vec::new();
+    for (piece, turned) in pieces {
+        let corners = corners(&piece.curve, piece.range);
+        if corners.is_empty() {
+            out.push((piece, turned));
+            continue;
+        }
+        let ends: Vec<f64> =
+            [piece.range.start].into_iter().chain(corners).chain([piece.range.end]).collect();
+        let part = |pair: &[f64]| (Piece { range: Interval::new(pair[0], pair[1]), ..piece.clone() }, turned);
+        let from = out.len();
+        out.extend(ends.windows(2).map(part));
+        if turned {
+            out[from..].reverse();
+        }
     }
     out
+}
+
+/// Where in a range a curve turns sharply.
+fn corners(curve: &Curve, range: Interval) -> Vec<f64> {
+    let may_turn = match curve {
+        Curve::Nurbs(nurbs) => has_sharp_knots(nurbs, range),
+        Curve::OnSurface { pcurve, .. } => match &**pcurve {
+            Curve::Nurbs(nurbs) => has_sharp_knots(nurbs, range),
+            other => matches!(other, Curve::Polyline(_) | Curve::Composite(_)),
+        },
+        Curve::Polyline(_) | Curve::Composite(_) => true,
+        _ => false,
+    };
+    if !may_turn {
+        return Vec::new();
+    }
+    let breaks = curve.breakpoints(range);
+    let is_corner = |at: &[f64]| {
+        let step = 1e-3 * (at[1] - at[0]).min(at[2] - at[1]);
+        let [before, here, after] = [at[1] - step, at[1], at[1] + step].map(|t| curve.point(t));
+        (here - before).angle_between(after - here) > CORNER_RAD
+    };
+    breaks.windows(3).filter(|at| is_corner(at)).map(|at| at[1]).collect()
+}
+
+/// Whether a spline has knots inside a range at which it need not be smooth.
+fn has_sharp_knots(nurbs: &NurbsCurve, range: Interval) -> bool {
+    let inside = nurbs.knots().windows(nurbs.degree()).filter(|at| range.start < at[0] && at[0] < range.end);
+    inside.into_iter().any(|at| at[0] == at[at.len() - 1])
 }

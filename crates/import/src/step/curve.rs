@@ -11,6 +11,7 @@ use super::attributes::Attributes;
 use super::fault::Outcome;
 use super::keyword::Kind;
 use super::reader::Reader;
+use crate::run::turned;
 
 /// An end of a trimmed curve as the file gives it: by parameter, by point, or both.
 #[derive(Clone, Copy, Debug, Default)]
@@ -153,6 +154,7 @@ impl<'t> Reader<'t> {
         if segments.is_empty() {
             return Err(self.fault(index, "has no segments"));
         }
+        turn_end_to_end(&mut segments);
         Ok(Curve::Composite(CompositeCurve { segments }))
     }
 
@@ -296,6 +298,16 @@ pub(crate) fn whole_segment(segment: CompositeSegment) -> Curve {
     } else {
         segment.curve
     }
+}
+
+/// Turns segments over that run against those before them: their senses, and those of the trimmed curves in them, cannot
+/// be relied on; how they meet can.
+pub(crate) fn turn_end_to_end(segments: &mut [CompositeSegment]) {
+    let runs: Vec<[DVec3; 3]> = segments
+        .iter()
+        .map(|segment| [0.0, 0.5, 1.0].map(|share| segment.curve.point(segment.parameter(share))))
+        .collect();
+    segments.iter_mut().zip(turned(&runs)).for_each(|(segment, turned)| segment.reversed ^= turned);
 }
 
 /// Range and direction of a curve that runs from `t1` to `t2`, in the curve's sense or against it.

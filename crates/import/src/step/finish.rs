@@ -1,5 +1,6 @@
 //! From a part's seeds to its exact geometry: every curve, surface, edge and face on its own, in parallel.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -256,7 +257,10 @@ impl<'t> Stage<'t> {
             }
         }
         match surface {
-            FaceSurface::Slot(slot) => surfaces[*slot].clone().map(FaceGeometry::Surface),
+            FaceSurface::Slot(slot) => {
+                let surface = surfaces[*slot].clone()?;
+                Ok(FaceGeometry::Surface(part_in_use(&surface, &seed.loops, edges).unwrap_or(surface)))
+            }
             FaceSurface::Ready(surface) => Ok(FaceGeometry::Surface(surface.clone())),
             FaceSurface::Facets(facets) => Ok(FaceGeometry::Facets(facets.clone())),
             FaceSurface::Flat => {
@@ -269,6 +273,22 @@ impl<'t> Stage<'t> {
             }
         }
     }
+}
+
+/// Of a torus that crosses itself the other part (apple or lemon), where that is the one that the face's edges lie on:
+/// `toroidal_surface` does not say which is meant.
+fn part_in_use(surface: &Surface, loops: &[Loop], edges: &[Outcome<Edge>]) -> Option<Arc<Surface>> {
+    let &Surface::Torus { ref frame, major, minor, v_range: Some(range) } = surface else { return None };
+    let other = Interval::new(range.end, range.start + TAU);
+    let other = Surface::Torus { frame: *frame, major, minor, v_range: Some(other) };
+    let edges =
+        loops.iter().flat_map(|bound| &bound.coedges).map(|coedge| edges[coedge.edge as usize].as_ref());
+    let points: Vec<DVec3> = edges
+        .flatten()
+        .flat_map(|edge| [0.2, 0.5, 0.8].map(|at| edge.curve.point(edge.range.at(at))))
+        .collect();
+    let off = |surface: &Surface| points.iter().map(|&p| surface.project(p, None).distance).sum::<f64>();
+    (off(&other) < 0.5 * off(surface)).then(|| Arc::new(other))
 }
 
 /// The vertex at which a coedge begins.

@@ -7,7 +7,7 @@ use trimloop_brep::{BodyKind, Coedge, Diagnostic, Loop, Severity, Shell, ShellFa
 use trimloop_geom::{Curve, Interval, Surface};
 
 use super::context::Context;
-use super::curve::surface_parameter_scale;
+use super::curve::{surface_parameter_scale, turn_end_to_end};
 use super::fault::Outcome;
 use super::keyword::Kind;
 use super::look::Look;
@@ -164,12 +164,10 @@ impl<'t> PartBuilder<'t> {
             segments.push(reader.composite_segment(segment)?);
         }
         self.seeds.diagnostics.append(&mut reader.notes);
+        turn_end_to_end(&mut segments);
         let starts: Vec<VertexId> = segments
             .iter()
-            .map(|segment| {
-                let t = if segment.reversed { segment.range.end } else { segment.range.start };
-                self.seeds.vertex_at(segment.curve.point(t))
-            })
+            .map(|segment| self.seeds.vertex_at(segment.curve.point(segment.parameter(0.0))))
             .collect();
         let mut coedges = Vec::new();
         for (i, segment) in segments.into_iter().enumerate() {
