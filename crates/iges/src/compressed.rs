@@ -164,7 +164,7 @@ impl<'a> Reader<'a, '_> {
 const MAX_SCANNED: usize = 500;
 
 /// Whether a record ends in a text.
-fn ends(text: &[u8], delimiters: Delimiters) -> bool {
+pub(crate) fn ends(text: &[u8], delimiters: Delimiters) -> bool {
     let mut rest = text;
     loop {
         let (_, after, then) = next(rest, delimiters);

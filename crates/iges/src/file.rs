@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use crate::compressed;
+use crate::compressed::{self, ends};
 use crate::directory::DirectoryEntry;
 use crate::global::LAST_OF_UNITS;
 use crate::lines::{BACK_WIDTH, Line, PARAMETER_WIDTH, Sheet, lines, look_like_iges};
 use crate::value::decode;
-use crate::{Entity, Global, ReadError, Section, SyntaxError};
+use crate::{Delimiters, Entity, Global, ReadError, Section, SyntaxError};
 
 /// An IGES file.
 #[derive(Clone, Debug)]
@@ -37,9 +37,9 @@ impl IgesFile {
         let start: Vec<String> =
             sheet.of(Section::Start).map(|line| decode(line.text).trim_end().to_owned()).collect();
         let directory = directory(&sheet.of(Section::Directory).collect::<Vec<_>>(), &mut errors);
-        let ranges = ranges(&directory, &sheet.backs, &mut errors);
-        check_terminate(&sheet, &mut errors);
         let global = Global::parse(&joined(Section::Global));
+        let ranges = ranges(&directory, &sheet, global.delimiters, &mut errors);
+        check_terminate(&sheet, &mut errors);
         if global.parameter_count < LAST_OF_UNITS {
             let message = format!(
                 "it ends after {} parameters, before it says what the units are; inches are assumed",
@@ -132,10 +132,13 @@ fn directory(lines: &[Line<'_>], errors: &mut Vec<SyntaxError>) -> Vec<Directory
 /// Where each entity's part of the parameters' text lies, by what the Parameter lines point back to.
 fn ranges(
     directory: &[DirectoryEntry],
-    backs: &[[u8; BACK_WIDTH]],
+    sheet: &Sheet,
+    delimiters: Delimiters,
     errors: &mut Vec<SyntaxError>,
 ) -> Vec<Range<usize>> {
+    let backs = &sheet.backs;
     let runs = runs(backs);
+    let mut records = Records::new(directory, sheet, delimiters);
     let mut ranges = Vec::with_capacity(directory.len());
     for entry in directory {
         let told = told_range(entry, backs.len());
@@ -143,7 +146,7 @@ fn ranges(
         let run = runs.get(&entry.number).cloned();
         let range = match (told, run) {
             (Some(told), Some(run)) if run.start == told.start => run,
-            (Some(told), None) => told,
+            (Some(told), None) => records.whole(told),
             (_, Some(run)) => run,
             (None, None) => {
                 let message = format!("entity D{} has no parameter data", entry.number);
@@ -162,6 +165,43 @@ fn told_range(entry: &DirectoryEntry, lines: usize) -> Option<Range<usize>> {
     let first = (entry.parameters as usize).checked_sub(1).filter(|first| *first < lines)?;
     let count = (entry.parameter_lines as usize).clamp(1, lines - first);
     Some(first..first + count)
+}
+
+/// Finds where records end whose entries count too few lines, and that no lines point back to.
+struct Records<'a> {
+    sheet: &'a Sheet,
+    delimiters: Delimiters,
+    /// The lines at which records begin, in order.
+    starts: Vec<usize>,
+    /// Lines that may still be gone through, lest entries that all begin at the same line cost its length each.
+    lines_left: usize,
+}
+
+impl<'a> Records<'a> {
+    fn new(directory: &[DirectoryEntry], sheet: &'a Sheet, delimiters: Delimiters) -> Self {
+        let starts = directory.iter().filter_map(|entry| (entry.parameters as usize).checked_sub(1));
+        let mut starts: Vec<usize> = starts.collect();
+        starts.sort_unstable();
+        Self { sheet, delimiters, starts, lines_left: 4 * sheet.backs.len() }
+    }
+
+    /// The lines told, and where they do not end a record those up to where another entity's begin.
+    fn whole(&mut self, told: Range<usize>) -> Range<usize> {
+        let next = self.starts.partition_point(|&start| start < told.end);
+        let end = self.starts.get(next).copied().unwrap_or(usize::MAX).min(self.sheet.backs.len());
+        if end <= told.end || self.ends(told.clone()) {
+            return told;
+        }
+        let longer = told.start..end;
+        if self.ends(longer.clone()) { longer } else { told }
+    }
+
+    fn ends(&mut self, lines: Range<usize>) -> bool {
+        let Some(left) = self.lines_left.checked_sub(lines.len()) else { return true };
+        self.lines_left = left;
+        let columns = lines.start * PARAMETER_WIDTH..lines.end * PARAMETER_WIDTH;
+        ends(&self.sheet.parameters[columns], self.delimiters)
+    }
 }
 
 /// By the directory entry that lines point back to, the first run of such lines.

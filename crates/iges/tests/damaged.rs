@@ -45,6 +45,15 @@ fn wrong_counts_are_reported_and_what_lines_say_of_themselves_is_taken() {
     assert!(matches!(values[2], Value::Text(text) if text.len() == 60), "{values:?}");
 }
 
+/// Every line points back to the first entity, and entries count one line each: the record's end tells.
+#[test]
+fn records_end_at_their_delimiter_where_nothing_else_tells() {
+    let text = file().replace("       3P", "       1P").replace("       2      15", "       1      15");
+    let read = IgesFile::parse(text.as_bytes()).expect("a file");
+    let name = read.get(3).expect("the name").values().nth(2).expect("its text");
+    assert_eq!(name.text().expect("a string"), format!("{}bcdef", "a".repeat(55)));
+}
+
 #[test]
 fn pointers_to_nowhere_lead_nowhere() {
     let read = IgesFile::parse(file().as_bytes()).expect("a file");
