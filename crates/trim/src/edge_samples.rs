@@ -320,8 +320,8 @@ impl Sampler<'_> {
             return;
         }
         let mut sides = a.sides.iter().zip(&b.sides).zip(self.grounds);
-        let passes = !between.is_empty();
-        if !sides.any(|((fa, fb), g)| self.turns(g, fa, fb) || self.sinks(g, [fa, fb], passes)) {
+        let is_long = depth == 0 || !between.is_empty();
+        if !sides.any(|((fa, fb), g)| self.turns(g, fa, fb) || self.sinks(g, [fa, fb], is_long)) {
             return;
         }
         let (before, rest) = between.split_at(between.len() / 2);
@@ -339,8 +339,9 @@ impl Sampler<'_> {
     }
 
     /// Whether a chord sinks into a free-form surface (or rises from it) between its ends, which the curve need not do
-    /// where it is only near the surface. A chord that `passes` points of the line may also turn there and back.
-    fn sinks(&self, ground: &Ground, [fa, fb]: [&Foot; 2], passes: bool) -> bool {
+    /// where it is only near the surface. Beside a chord that `is_long`, as the curve alone has it, the surface may also
+    /// turn there and back.
+    fn sinks(&self, ground: &Ground, [fa, fb]: [&Foot; 2], is_long: bool) -> bool {
         if !ground.free_form || fa.singular.is_some() || fb.singular.is_some() {
             return false;
         }
@@ -355,7 +356,7 @@ impl Sampler<'_> {
         let normals = [fa, fb].map(|foot| foot.normal.unwrap_or_default());
         let most = self.line.tolerance.angular_rad * 1.001;
         middle.abs() > self.line.tolerance.linear_mm
-            || passes && normals.iter().any(|&end| end != DVec3::ZERO && turns_by_more(end, normal, most))
+            || is_long && normals.iter().any(|&end| end != DVec3::ZERO && turns_by_more(end, normal, most))
             || doubtful_quarters(chord, normals, middle, self.line.tolerance.linear_mm)
                 .any(|share| above(share).0.abs() > self.line.tolerance.linear_mm)
     }
@@ -398,22 +399,26 @@ mod tests {
     use trimloop_brep::{Coedge, EntityRef, Face, Loop, Vertex};
     use trimloop_geom::NurbsCurve;
 
+    const SPANS: usize = 48;
+
     /// A sheet that lies flat at both ends of its straight border and leans over by `lean` radians in between; the border
-    /// is a spline of many spans.
-    fn leaning_sheet(lean: f64) -> Part {
-        const SPANS: usize = 48;
-        let knots: Vec<f64> = std::iter::once(0).chain(0..=SPANS).chain([SPANS]).map(|k| k as f64).collect();
-        let along = |height: fn(f64) -> f64, slope: f64, y: f64| {
+    /// is a spline of so many spans.
+    fn leaning_sheet(lean: f64, spans: usize) -> Part {
+        let knots = |spans: usize| -> Vec<f64> {
+            std::iter::once(0).chain(0..=spans).chain([spans]).map(|k| k as f64).collect()
+        };
+        let along = |spans: usize, height: fn(f64) -> f64, slope: f64, y: f64| {
             let point = |k: usize| {
-                let x = k as f64 / SPANS as f64;
+                let x = k as f64 / spans as f64;
                 DVec3::new(100.0 * x, y, slope * height(x))
             };
-            (0..=SPANS).map(point).collect::<Vec<DVec3>>()
+            (0..=spans).map(point).collect::<Vec<DVec3>>()
         };
-        let border = NurbsCurve::new(1, along(|_| 0.0, 0.0, 0.0), Vec::new(), knots.clone()).expect("a line");
-        let rows: Vec<DVec3> = along(|_| 0.0, 0.0, 0.0)
+        let border = along(spans, |_| 0.0, 0.0, 0.0);
+        let border = NurbsCurve::new(1, border, Vec::new(), knots(spans)).expect("a line");
+        let rows: Vec<DVec3> = along(SPANS, |_| 0.0, 0.0, 0.0)
             .into_iter()
-            .zip(along(|x| (PI * x).sin(), 20.0 * lean.tan(), 20.0))
+            .zip(along(SPANS, |x| (PI * x).sin(), 20.0 * lean.tan(), 20.0))
             .flat_map(|(a, b)| [a, b])
             .collect();
         let sheet = trimloop_geom::NurbsSurface::new(
@@ -422,7 +427,7 @@ mod tests {
             2,
             rows,
             Vec::new(),
-            [knots, vec![0.0, 0.0, 1.0, 1.0]],
+            [knots(SPANS), vec![0.0, 0.0, 1.0, 1.0]],
         );
         let entity = EntityRef::None;
         let vertex = |x: f64| Vertex { entity, point: DVec3::new(x, 0.0, 0.0) };
@@ -431,7 +436,7 @@ mod tests {
             start: 0,
             end: 1,
             curve: Arc::new(Curve::Nurbs(border)),
-            range: Interval::new(0.0, SPANS as f64),
+            range: Interval::new(0.0, spans as f64),
             same_sense: true,
         };
         let coedges = vec![Coedge { edge: 0, reversed: false, pcurve: None }];
@@ -455,16 +460,18 @@ mod tests {
     #[test]
     fn straight_edges_have_samples_where_their_surface_leans_over() {
         let tolerance = Tolerance { linear_mm: 0.1, angular_rad: 0.2 };
-        let count = |lean| sample_edges(&leaning_sheet(lean), tolerance).edges[0].points.len();
-        assert_eq!(count(0.0), 2);
-        // Up and down again, by no more than the angle from one sample to the next.
-        assert!((8..20).contains(&count(0.8)), "{}", count(0.8));
+        for spans in [SPANS, 1] {
+            let count = |lean| sample_edges(&leaning_sheet(lean, spans), tolerance).edges[0].points.len();
+            assert_eq!(count(0.0), 2);
+            // Up and down again, by no more than the angle from one sample to the next.
+            assert!((8..20).contains(&count(0.8)), "{}", count(0.8));
+        }
     }
 
     #[test]
     fn samples_lie_on_their_surface() {
         let tolerance = Tolerance { linear_mm: 0.1, angular_rad: 0.2 };
-        let part = leaning_sheet(0.8);
+        let part = leaning_sheet(0.8, SPANS);
         let samples = sample_edges(&part, tolerance);
         let FaceGeometry::Surface(surface) = &part.faces[0].geometry else { panic!("a surface") };
         let side = samples.edges[0].side(0).expect("the sheet's side");
