@@ -34,6 +34,7 @@ mod hint;
 mod iges;
 mod parallel;
 mod run;
+mod seam;
 mod sew;
 mod sniff;
 mod split;

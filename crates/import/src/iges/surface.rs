@@ -9,6 +9,7 @@ use trimloop_geom::{
 
 use super::curve::{Piece, bezier_knots, joined};
 use super::reader::{Fault, MAX_DEPTH, Outcome, Parameters, Reader};
+use crate::seam::close_seams;
 
 /// A surface, placed in the model, millimetres.
 #[derive(Clone, Debug)]
@@ -410,8 +411,9 @@ fn rational_spline(parameters: &mut Parameters<'_>) -> Outcome<Surface> {
     let weights = parameters.reals(size)?;
     let points = parameters.points(size)?;
     let row_major = |k: usize| (k % columns) * rows + k / columns;
-    let weights = (0..size).map(|k| weights[row_major(k)]).collect();
-    let points = (0..size).map(|k| points[row_major(k)]).collect();
+    let weights: Vec<f64> = (0..size).map(|k| weights[row_major(k)]).collect();
+    let mut points: Vec<DVec3> = (0..size).map(|k| points[row_major(k)]).collect();
+    close_seams(degrees, [rows, columns], &mut points, &weights, &knots);
     let surface = NurbsSurface::new(degrees, rows, columns, points, weights, knots);
     let surface = surface.map_err(|error| parameters.fault(format!("is no B-spline: {error}")))?;
     let told = parameters.reals(4).ok();
@@ -459,6 +461,7 @@ fn parametric_spline(parameters: &mut Parameters<'_>) -> Outcome<Surface> {
         }
     }
     let knots = [bezier_knots(&breaks[0]), bezier_knots(&breaks[1])];
+    close_seams([3, 3], shape, &mut points, &[], &knots);
     let surface = NurbsSurface::new([3, 3], shape[0], shape[1], points, Vec::new(), knots);
     surface.map(Surface::Nurbs).map_err(|error| parameters.fault(format!("is no spline: {error}")))
 }

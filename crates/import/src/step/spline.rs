@@ -8,6 +8,7 @@ use trimloop_part21::Param;
 use super::attributes::Attributes;
 use super::fault::Outcome;
 use super::reader::Reader;
+use crate::seam::close_seams;
 
 /// The highest degree that is read; no system writes more, and evaluation takes time with its square.
 const MAX_DEGREE: usize = 60;
@@ -53,7 +54,7 @@ impl<'t> Reader<'t> {
         let complex = self.table.instance(index).is_complex();
         let mut base = self.part(index, "B_SPLINE_SURFACE")?.after(usize::from(!complex));
         let degrees = [self.degree(index, &mut base)?, self.degree(index, &mut base)?];
-        let (rows, columns, points) = self.control_net(&mut base)?;
+        let (rows, columns, mut points) = self.control_net(&mut base)?;
         base.skip(4);
         let mut knots_part = self.knots_part(index, "B_SPLINE_SURFACE_WITH_KNOTS", base);
         let knots = match &mut knots_part {
@@ -75,6 +76,7 @@ impl<'t> Reader<'t> {
             None => Vec::new(),
         };
         self.repair_weights(index, &mut weights, points.len())?;
+        close_seams(degrees, [rows, columns], &mut points, &weights, &knots);
         NurbsSurface::new(degrees, rows, columns, points, weights, knots)
             .map_err(|error| self.fault(index, &error.0))
     }
