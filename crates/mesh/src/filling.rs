@@ -9,7 +9,7 @@ use crate::crease::Creases;
 use crate::draft::DraftVertex;
 use crate::fringe::Fringe;
 use crate::seeds::seeds;
-use crate::triangulation::Triangulation;
+use crate::triangulation::{InnerEdge, Triangulation};
 use crate::warp::Warp;
 
 /// A domain's triangulation with what its sites are in space.
@@ -250,13 +250,14 @@ impl<'a> Filling<'a> {
         let mut sides = vec![MeasuredSides::default(); inside.len()];
         let mut out = Vec::new();
         let mut worst = self.max_deviation_mm;
-        for ([a, b], faces) in self.triangulation.inner_edges() {
+        for inner in self.triangulation.inner_edges() {
+            let ([a, b], faces) = (inner.sites(), inner.faces());
             if (fresh > 0 && a < fresh && b < fresh) || !(inside[faces[0]] || inside[faces[1]]) {
                 continue;
             }
             let edge = self.measure_edge(a, b);
             match edge.split {
-                Some(at) if self.is_open(at) => {
+                Some(at) if self.is_open(at) && !self.is_hair(&inner, &inside, &edge) => {
                     faces.iter().for_each(|&f| sides[f].broken = true);
                     out.push((at, a));
                 }
@@ -283,6 +284,21 @@ impl<'a> Filling<'a> {
         self.max_deviation_mm = worst;
         self.inside = Some(inside);
         out
+    }
+
+    /// Whether an edge that is near enough to the surface has nothing but slivers on both sides. The normals may turn
+    /// along it whatever way they like, as they do beside a border where the surface's derivatives vanish.
+    fn is_hair(&self, inner: &InnerEdge<'_>, inside: &[bool], edge: &MeasuredEdge) -> bool {
+        if edge.off > self.tolerance.linear_mm {
+            return false;
+        }
+        let [a, b] = inner.sites().map(|site| self.sites[site as usize].position);
+        let along = (b - a).normalize_or_zero();
+        let beside = inner.opposite().into_iter().zip(inner.faces()).filter(|&(_, face)| inside[face]);
+        beside.filter_map(|(site, _)| site).all(|site| {
+            let across = self.sites[site as usize].position - a;
+            across.reject_from_normalized(along).length() < self.shortest_turn_mm()
+        })
     }
 
     /// Whether a point may be added at the warped place `at`.

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
-use spade::handles::{FixedFaceHandle, InnerTag, PossiblyOuterTag};
+use spade::handles::{FixedFaceHandle, InnerTag, PossiblyOuterTag, UndirectedEdgeHandle};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 use trimloop_trim::TrimDomain;
 
@@ -37,6 +37,29 @@ pub(crate) struct Triangulation {
     /// Whether every boundary segment is an edge of the triangulation.
     pub intact: bool,
     domain: Strips,
+}
+
+/// An edge that is no boundary.
+#[derive(Clone, Copy)]
+pub(crate) struct InnerEdge<'a>(UndirectedEdgeHandle<'a, Site, (), spade::CdtEdge<()>, ()>);
+
+impl InnerEdge<'_> {
+    /// Its sites.
+    pub fn sites(&self) -> [u32; 2] {
+        self.0.vertices().map(|v| v.data().index)
+    }
+
+    /// The faces on both sides, the outer one included.
+    pub fn faces(&self) -> [usize; 2] {
+        let directed = self.0.as_directed();
+        [directed.face().index(), directed.rev().face().index()]
+    }
+
+    /// The sites across from it in those faces.
+    pub fn opposite(&self) -> [Option<u32>; 2] {
+        let directed = self.0.as_directed();
+        [directed, directed.rev()].map(|side| side.opposite_vertex().map(|v| v.data().index))
+    }
 }
 
 /// Sides that triangles' middles may be held against in one go.
@@ -161,10 +184,7 @@ impl Triangulation {
         }
     }
 
-    fn switches(
-        &self,
-        edge: spade::handles::UndirectedEdgeHandle<'_, Site, (), spade::CdtEdge<()>, ()>,
-    ) -> bool {
+    fn switches(&self, edge: UndirectedEdgeHandle<'_, Site, (), spade::CdtEdge<()>, ()>) -> bool {
         edge.is_constraint_edge() && {
             let [a, b] = edge.vertices().map(|v| v.data().index);
             self.slits.is_empty() || !self.slits.contains(&(a.min(b), a.max(b)))
@@ -189,12 +209,9 @@ impl Triangulation {
         })
     }
 
-    /// The edges that are no boundary: sites, and the faces on both sides (outer face included).
-    pub fn inner_edges(&self) -> impl Iterator<Item = ([u32; 2], [usize; 2])> + '_ {
-        self.cdt.undirected_edges().filter(|e| !e.is_constraint_edge()).map(|e| {
-            let directed = e.as_directed();
-            (e.vertices().map(|v| v.data().index), [directed.face().index(), directed.rev().face().index()])
-        })
+    /// The edges that are no boundary.
+    pub fn inner_edges(&self) -> impl Iterator<Item = InnerEdge<'_>> {
+        self.cdt.undirected_edges().filter(|e| !e.is_constraint_edge()).map(InnerEdge)
     }
 }
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 use trimloop_brep::{
     Body, BodyKind, Coedge, Edge, EntityRef, Face, FaceGeometry, Loop, Part, Shell, ShellFace, Vertex,
 };
-use trimloop_geom::{Curve, Frame, Interval, Surface};
+use trimloop_geom::{Curve, Frame, Interval, NurbsSurface, Surface};
 use trimloop_mesh::{FaceStatus, LinearDeflection, MeshOptions, PartMesh, Silent, mesh_part};
 
 /// Builds a part with one shell.
@@ -350,4 +350,38 @@ fn a_half_cone_is_the_same_half_whichever_way_its_loop_runs() {
         let expected = 0.5 * PI * radius * radius.hypot(height);
         assert!((area(&mesh) / expected - 1.0).abs() < 1e-2, "{} for {expected}", area(&mesh));
     }
+}
+
+/// A sheet whose derivative across its border all but vanishes there and points this way and that: the normals turn along
+/// a strip of a millionth of a millimetre, which no refinement can settle.
+#[test]
+fn normals_that_flutter_along_a_border_are_not_followed() {
+    const SPANS: usize = 8;
+    let rows = [0.0, 1e-9, 10.0, 20.0];
+    let points = rows.iter().enumerate().flat_map(|(row, &x)| {
+        (0..=SPANS).map(move |k| {
+            let turn = if row == 1 { 2.4 * k as f64 } else { 0.0 };
+            DVec3::new(x * turn.cos(), 5.0 * k as f64, x * turn.sin())
+        })
+    });
+    let knots = std::iter::once(0).chain(0..=SPANS).chain([SPANS]).map(|k| k as f64).collect();
+    let across = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+    let sheet = NurbsSurface::new([3, 1], 4, SPANS + 1, points.collect(), Vec::new(), [across, knots]);
+    let length = 5.0 * SPANS as f64;
+    let mut builder = Builder::default();
+    let corners =
+        [[0.0, 0.0], [20.0, 0.0], [20.0, length], [0.0, length]].map(|[x, y]| DVec3::new(x, y, 0.0));
+    let vertices = corners.map(|corner| builder.vertex(corner));
+    let sides: Vec<(u32, bool)> = (0..4)
+        .map(|k| {
+            let (from, to) = (k, (k + 1) % 4);
+            let line = Curve::Line { origin: corners[from], direction: corners[to] - corners[from] };
+            (builder.edge(vertices[from], vertices[to], line, Interval::new(0.0, 1.0)), false)
+        })
+        .collect();
+    builder.face(Surface::Nurbs(sheet.expect("a sheet")), true, &[&sides]);
+    let mesh = builder.mesh(false, 0.01);
+    assert_eq!(mesh.faces[0].status, FaceStatus::Exact);
+    assert!((area(&mesh) / (20.0 * length) - 1.0).abs() < 1e-6, "{}", area(&mesh));
+    assert!(mesh.faces[0].triangles.len() < 1000, "{}", mesh.faces[0].triangles.len());
 }
