@@ -189,6 +189,20 @@ fn mapped_item_with_an_operator() {
 }
 
 /// A representation that only maps another is no level of the tree.
+/// Drawings map the shapes that they show; those stand nowhere for that.
+#[test]
+fn what_only_a_drawing_maps_is_still_a_root() {
+    let model = model(&format!(
+        "{}{}#60=REPRESENTATION_MAP(#4,#6);#61=MAPPED_ITEM('',#60,#62);#62=AXIS2_PLACEMENT_2D('',#63,$);
+         #63=CARTESIAN_POINT('',(0.,0.));#64=PRESENTATION_VIEW('front',(#61),#900);
+         #65=REPRESENTATION_MAP(#2,#5);#66=MAPPED_ITEM('',#65,#62);#67=PRESENTATION_VIEW('front',(#66),#900);",
+        brick_and_wall(),
+        usage(40, "'1','one',''", [30, 20], "#2,#4", "#5,#6")
+    ));
+    assert_eq!(root(&model).name, "wall");
+    assert_eq!(children(&model, root(&model)).len(), 1);
+}
+
 #[test]
 fn nothing_but_a_mapped_item_is_seen_through() {
     let model = model(&format!(

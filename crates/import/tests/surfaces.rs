@@ -43,6 +43,19 @@ fn apple_and_lemon() {
     }
 }
 
+/// A lemon about a circle of negative radius is left towards its outside, as its parameters have it.
+#[test]
+fn a_lemon_of_negative_radius_looks_outwards() {
+    let face = whole_face("#1=TOROIDAL_SURFACE('',#801,-1.,2.);");
+    let crossing = 0.5f64.acos();
+    let Surface::Torus { v_range: Some(range), .. } = surface(&face) else { panic!() };
+    assert!((range.end - crossing).abs() < 1e-12 && (range.start + crossing).abs() < 1e-12);
+    near(surface(&face).point(DVec2::new(0.0, 0.0)), DVec3::X);
+    near(surface(&face).normal(DVec2::new(0.0, 0.0)).expect("a normal"), DVec3::X);
+    let foot = surface(&face).project(DVec3::new(0.0, 3.0, 0.0), None);
+    near(foot.point, DVec3::Y);
+}
+
 /// `TOROIDAL_SURFACE` does not say which part is meant where it crosses itself; the edges do.
 #[test]
 fn a_torus_that_crosses_itself_is_used_where_the_edges_lie() {

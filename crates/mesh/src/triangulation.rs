@@ -109,7 +109,12 @@ impl Triangulation {
         edges.sort_unstable();
         let mut refused = 0;
         let cdt = Cdt::try_bulk_load_cdt(sites, edges.clone(), |_| refused += 1).ok()?;
-        let intact = refused == 0 && cdt.num_constraints() == edges.len();
+        // A side that runs through a corner is there in pieces, which may be sides already.
+        let is_there = |[a, b]: &[usize; 2]| {
+            let [a, b] = [a, b].map(|&site| spade::handles::FixedVertexHandle::from_index(site));
+            cdt.exists_constraint(a, b)
+        };
+        let intact = refused == 0 && cdt.num_constraints() == edges.len() && edges.iter().all(is_there);
         let slits = uses.into_iter().filter(|&(_, n)| n % 2 == 0).map(|(pair, _)| pair).collect();
         Some(Self { cdt, site_of_corner, inner_is_new, slits, intact, domain: Strips::new(&polygons) })
     }

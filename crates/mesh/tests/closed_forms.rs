@@ -385,3 +385,23 @@ fn normals_that_flutter_along_a_border_are_not_followed() {
     assert!((area(&mesh) / (20.0 * length) - 1.0).abs() < 1e-6, "{}", area(&mesh));
     assert!(mesh.faces[0].triangles.len() < 1000, "{}", mesh.faces[0].triangles.len());
 }
+
+/// A polygon that runs out to a point and back over itself, past its own corner.
+#[test]
+fn a_spike_of_no_width_adds_no_area() {
+    let mut builder = Builder::default();
+    let points =
+        [[0.0, 0.0], [0.0, -4.0], [1.0, -4.0], [1.0, 0.0], [5.0, 0.0]].map(|[x, y]| DVec3::new(x, y, 0.0));
+    let vertices = points.map(|point| builder.vertex(point));
+    let sides: Vec<(u32, bool)> = (0..points.len())
+        .map(|k| {
+            let (from, to) = (k, (k + 1) % points.len());
+            let line = Curve::Line { origin: points[from], direction: points[to] - points[from] };
+            (builder.edge(vertices[from], vertices[to], line, Interval::new(0.0, 1.0)), false)
+        })
+        .collect();
+    builder.face(Surface::Plane { frame: Frame::WORLD }, true, &[&sides]);
+    let mesh = builder.mesh(false, 0.01);
+    assert!((area(&mesh) - 4.0).abs() < 1e-12, "{}", area(&mesh));
+    assert_eq!(mesh.faces[0].status, FaceStatus::Exact);
+}

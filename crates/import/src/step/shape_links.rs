@@ -83,9 +83,13 @@ impl<'t> ShapeLinks<'t> {
         Self { table, products, representations, placements, attached, links, diagnostics }
     }
 
-    /// Representations that stand in others: mapped or attached ones.
+    /// Representations that stand in others: mapped or attached ones. What only drawings and camera images map, in
+    /// `presentation_view` and the like, stands nowhere.
     pub fn placed_representations(&self) -> FxHashSet<usize> {
-        let maps = self.table.of(&[Kind::RepresentationMap]);
+        let items = self.representations.indices().iter().flat_map(|&index| self.items(index));
+        let maps = items
+            .filter(|&&item| self.table.kind(item) == Kind::MappedItem)
+            .filter_map(|&item| self.table.attributes(item).after(1).optional_reference());
         let mapped = maps.filter_map(|map| self.table.attributes(map).after(1).optional_reference());
         mapped.chain(self.attached.values().flatten().map(|held| held.representation)).collect()
     }

@@ -112,13 +112,14 @@ impl<'t> Reader<'t> {
     }
 
     /// `toroidal_surface` and `degenerate_toroidal_surface`, of which the outer part (apple) or the inner part
-    /// (lemon) is used (ISO 10303-42 §4.5.35).
+    /// (lemon) is used (ISO 10303-42 §4.5.35). Some systems write a lemon as the outer part about a circle of negative
+    /// radius, whose normal points the other way than that of the inner part.
     fn torus(&mut self, index: usize, mut attributes: Attributes<'t>) -> Outcome<Surface> {
         let frame = self.position(&mut attributes)?;
-        let major = attributes.real("major radius")?.abs() * self.units.length_mm;
+        let major = attributes.real("major radius")? * self.units.length_mm;
         let minor = self.length(index, &mut attributes, "minor radius")?;
         let outer = attributes.flag();
-        let v_range = (major < minor).then(|| {
+        let v_range = (major.abs() < minor).then(|| {
             let crossing = (-major / minor).acos();
             if outer { Interval::new(-crossing, crossing) } else { Interval::new(crossing, TAU - crossing) }
         });
