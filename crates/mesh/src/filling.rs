@@ -1,6 +1,7 @@
 //! Triangles for a domain, refined until they keep to the exact surface.
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use trimloop_geom::{Interval, Surface};
 use trimloop_trim::{EdgeSamples, Tolerance, TrimDomain, TrimVertex, doubtful_quarters};
@@ -24,6 +25,8 @@ pub(crate) struct Filling<'a> {
     triangulation: Triangulation,
     /// Per face of the triangulation as it is now whether it lies inside the domain, where that is known.
     inside: Option<Vec<bool>>,
+    /// Room for what is known of the triangles' sides, kept from round to round.
+    sides: Vec<MeasuredSides>,
     sites: Vec<SiteInSpace>,
     /// The number of the first point that this filling adds, and of the next one.
     first_inner: u32,
@@ -105,6 +108,10 @@ const CLEARLY_WITHIN: f64 = 0.5;
 /// An edge across a crease is to be nearer than this part of the tolerance.
 const CREASE_SHARE: f64 = 0.25;
 
+/// Edges that are measured together, and the fewest edges or points that another thread is worth waking for.
+const BATCH: usize = 8192;
+const LEAST_SHARE: usize = 512;
+
 /// Rounds of refinement; each halves what is still too long.
 const MAX_ROUNDS: usize = 16;
 
@@ -136,6 +143,7 @@ impl<'a> Filling<'a> {
             sites: Vec::with_capacity(triangulation.len()),
             triangulation,
             inside: None,
+            sides: Vec::new(),
             first_inner,
             next_point: first_inner,
             max_deviation_mm: 0.0,
@@ -146,7 +154,12 @@ impl<'a> Filling<'a> {
         };
         filling.place_corners(domain, samples);
         let new = std::mem::take(&mut filling.triangulation.inner_is_new);
-        inner.iter().zip(new).filter(|(_, new)| *new).for_each(|(&uv, _)| filling.place_inner(uv));
+        let new: Vec<DVec2> = inner.into_iter().zip(new).filter(|(_, new)| *new).map(|(uv, _)| uv).collect();
+        let mut sites = std::mem::take(&mut filling.sites);
+        let placed = new.par_iter().with_min_len(LEAST_SHARE).enumerate();
+        sites.par_extend(placed.map(|(k, &uv)| filling.inner_site(uv, first_inner + k as u32)));
+        filling.next_point += new.len() as u32;
+        filling.sites = sites;
         Some(filling)
     }
 
@@ -183,17 +196,14 @@ impl<'a> Filling<'a> {
     }
 
     fn place_inner(&mut self, uv: DVec2) {
-        let (position, normal) = self.point_and_normal(uv);
-        self.sites.push(SiteInSpace {
-            uv,
-            point: self.next_point,
-            position,
-            lift: DVec3::ZERO,
-            normal,
-            pole: false,
-            creased: self.creases.hold(uv),
-        });
+        self.sites.push(self.inner_site(uv, self.next_point));
         self.next_point += 1;
+    }
+
+    fn inner_site(&self, uv: DVec2, point: u32) -> SiteInSpace {
+        let (position, normal) = self.point_and_normal(uv);
+        let creased = self.creases.hold(uv);
+        SiteInSpace { uv, point, position, lift: DVec3::ZERO, normal, pole: false, creased }
     }
 
     fn point_and_normal(&self, uv: DVec2) -> (DVec3, DVec3) {
@@ -235,7 +245,9 @@ impl<'a> Filling<'a> {
                 return;
             }
             fresh = self.sites.len() as u32;
-            self.inside = None;
+            if let Some(inside) = self.inside.take() {
+                self.triangulation.remember(&inside);
+            }
             for (at, hint) in wanted {
                 if self.triangulation.insert(at, hint).is_some() {
                     self.place_inner(self.warp.unmap(at));
@@ -246,29 +258,48 @@ impl<'a> Filling<'a> {
 
     /// Warped points at which edges or triangles with a site from `fresh` on break a bound, each with a site nearby.
     fn violations(&mut self, fresh: u32) -> Vec<(DVec2, u32)> {
-        let inside = self.triangulation.inside();
-        let mut sides = vec![MeasuredSides::default(); inside.len()];
+        // Round new sites all lies inside, mostly; nothing else is looked at.
+        let all_inside = fresh > 0 && self.triangulation.new_sites_are_inside();
+        let inside = if all_inside { Vec::new() } else { self.triangulation.inside() };
+        let is_inside = |face: u32| all_inside || inside[face as usize];
+        let mut sides = std::mem::take(&mut self.sides);
+        sides.clear();
+        sides.resize(self.triangulation.face_count(), MeasuredSides::default());
         let mut out = Vec::new();
         let mut worst = self.max_deviation_mm;
-        for inner in self.triangulation.inner_edges() {
-            let ([a, b], faces) = (inner.sites(), inner.faces());
-            if (fresh > 0 && a < fresh && b < fresh) || !(inside[faces[0]] || inside[faces[1]]) {
-                continue;
+        let mut edges =
+            self.triangulation.inner_edges(fresh).filter(|edge| edge.faces.iter().any(|&f| is_inside(f)));
+        let (mut batch, mut measured) = (Vec::new(), Vec::new());
+        loop {
+            batch.clear();
+            batch.extend(edges.by_ref().take(BATCH));
+            if batch.is_empty() {
+                break;
             }
-            let edge = self.measure_edge(a, b);
-            match edge.split {
-                Some(at) if self.is_open(at) && !self.is_hair(&inner, &inside, &edge) => {
-                    faces.iter().for_each(|&f| sides[f].broken = true);
-                    out.push((at, a));
-                }
-                _ => {
-                    worst = worst.max(edge.off);
-                    faces.iter().for_each(|&f| sides[f].add(&edge));
+            let measure = |edge: &InnerEdge| {
+                let mut measured = self.measure_edge(edge.sites);
+                let is_split = |&at: &DVec2| self.is_open(at) && !self.is_hair(edge, is_inside, measured.off);
+                measured.split = measured.split.filter(is_split);
+                measured
+            };
+            batch.par_iter().with_min_len(LEAST_SHARE).map(measure).collect_into_vec(&mut measured);
+            for (edge, measured) in batch.iter().zip(&measured) {
+                let faces = edge.faces.map(|face| face as usize);
+                match measured.split {
+                    Some(at) => {
+                        faces.iter().for_each(|&f| sides[f].broken = true);
+                        out.push((at, edge.sites[0]));
+                    }
+                    None => {
+                        worst = worst.max(measured.off);
+                        faces.iter().for_each(|&f| sides[f].add(measured));
+                    }
                 }
             }
         }
-        for (face, t) in self.triangulation.triangles() {
-            if !inside[face] || sides[face].broken || (fresh > 0 && t.iter().all(|&s| s < fresh)) {
+        drop(edges);
+        for (face, t) in self.triangulation.triangles_at(fresh) {
+            if !is_inside(face as u32) || sides[face].broken {
                 continue;
             }
             if let Some(off) = sides[face].middle(self.tolerance.linear_mm) {
@@ -282,20 +313,21 @@ impl<'a> Filling<'a> {
             }
         }
         self.max_deviation_mm = worst;
-        self.inside = Some(inside);
+        self.sides = sides;
+        self.inside = (!all_inside).then_some(inside);
         out
     }
 
     /// Whether an edge that is near enough to the surface has nothing but slivers on both sides. The normals may turn
     /// along it whatever way they like, as they do beside a border where the surface's derivatives vanish.
-    fn is_hair(&self, inner: &InnerEdge<'_>, inside: &[bool], edge: &MeasuredEdge) -> bool {
-        if edge.off > self.tolerance.linear_mm {
+    fn is_hair(&self, edge: &InnerEdge, is_inside: impl Fn(u32) -> bool, off: f64) -> bool {
+        if off > self.tolerance.linear_mm {
             return false;
         }
-        let [a, b] = inner.sites().map(|site| self.sites[site as usize].position);
+        let [a, b] = edge.sites.map(|site| self.sites[site as usize].position);
         let along = (b - a).normalize_or_zero();
-        let beside = inner.opposite().into_iter().zip(inner.faces()).filter(|&(_, face)| inside[face]);
-        beside.filter_map(|(site, _)| site).all(|site| {
+        let beside = self.triangulation.opposite(edge).into_iter().zip(edge.faces);
+        beside.filter(|&(_, face)| is_inside(face)).filter_map(|(site, _)| site).all(|site| {
             let across = self.sites[site as usize].position - a;
             across.reject_from_normalized(along).length() < self.shortest_turn_mm()
         })
@@ -306,7 +338,7 @@ impl<'a> Filling<'a> {
         self.fringe.is_empty() || !self.fringe.holds(self.surface.point(self.warp.unmap(at)))
     }
 
-    fn measure_edge(&self, a: u32, b: u32) -> MeasuredEdge {
+    fn measure_edge(&self, [a, b]: [u32; 2]) -> MeasuredEdge {
         let (sa, sb) = (&self.sites[a as usize], &self.sites[b as usize]);
         if sa.point == sb.point {
             return MeasuredEdge::default();

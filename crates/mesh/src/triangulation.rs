@@ -2,7 +2,10 @@
 
 use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
-use spade::handles::{FixedFaceHandle, InnerTag, PossiblyOuterTag, UndirectedEdgeHandle};
+use spade::handles::{
+    DirectedEdgeHandle, FixedDirectedEdgeHandle, FixedFaceHandle, FixedVertexHandle, InnerTag,
+    PossiblyOuterTag, UndirectedEdgeHandle,
+};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 use trimloop_trim::TrimDomain;
 
@@ -36,30 +39,38 @@ pub(crate) struct Triangulation {
     slits: FxHashSet<(u32, u32)>,
     /// Whether every boundary segment is an edge of the triangulation.
     pub intact: bool,
+    /// What is known since the sides were first told; nothing where that does not hold for what was added since.
+    sides: Option<Sides>,
     domain: Strips,
 }
 
 /// An edge that is no boundary.
 #[derive(Clone, Copy)]
-pub(crate) struct InnerEdge<'a>(UndirectedEdgeHandle<'a, Site, (), spade::CdtEdge<()>, ()>);
-
-impl InnerEdge<'_> {
-    /// Its sites.
-    pub fn sites(&self) -> [u32; 2] {
-        self.0.vertices().map(|v| v.data().index)
-    }
-
+pub(crate) struct InnerEdge {
+    pub sites: [u32; 2],
     /// The faces on both sides, the outer one included.
-    pub fn faces(&self) -> [usize; 2] {
-        let directed = self.0.as_directed();
-        [directed.face().index(), directed.rev().face().index()]
-    }
+    pub faces: [u32; 2],
+    edge: FixedDirectedEdgeHandle,
+}
 
-    /// The sites across from it in those faces.
-    pub fn opposite(&self) -> [Option<u32>; 2] {
-        let directed = self.0.as_directed();
-        [directed, directed.rev()].map(|side| side.opposite_vertex().map(|v| v.data().index))
+impl InnerEdge {
+    fn new(edge: DirectedEdgeHandle<'_, Site, (), spade::CdtEdge<()>, ()>) -> Self {
+        let sites = edge.vertices().map(|v| v.data().index);
+        let faces = [edge, edge.rev()].map(|side| side.face().index() as u32);
+        Self { sites, faces, edge: edge.fix() }
     }
+}
+
+/// Which triangles lie inside the domain, told once: those that are made later lie round a new site, and no boundary
+/// runs between a site and its triangles.
+#[derive(Default)]
+struct Sides {
+    /// Sites from this one on are no corners.
+    first_inner: u32,
+    /// Triangles of corners only that lie inside, their sites sorted.
+    inside: FxHashSet<[u32; 3]>,
+    /// Sites that are no corners and yet lie outside.
+    outside: FxHashSet<u32>,
 }
 
 /// Sides that triangles' middles may be held against in one go.
@@ -111,12 +122,13 @@ impl Triangulation {
         let cdt = Cdt::try_bulk_load_cdt(sites, edges.clone(), |_| refused += 1).ok()?;
         // A side that runs through a corner is there in pieces, which may be sides already.
         let is_there = |[a, b]: &[usize; 2]| {
-            let [a, b] = [a, b].map(|&site| spade::handles::FixedVertexHandle::from_index(site));
+            let [a, b] = [a, b].map(|&site| FixedVertexHandle::from_index(site));
             cdt.exists_constraint(a, b)
         };
         let intact = refused == 0 && cdt.num_constraints() == edges.len() && edges.iter().all(is_there);
         let slits = uses.into_iter().filter(|&(_, n)| n % 2 == 0).map(|(pair, _)| pair).collect();
-        Some(Self { cdt, site_of_corner, inner_is_new, slits, intact, domain: Strips::new(&polygons) })
+        let domain = Strips::new(&polygons);
+        Some(Self { cdt, site_of_corner, inner_is_new, slits, intact, sides: None, domain })
     }
 
     /// Number of sites.
@@ -124,18 +136,27 @@ impl Triangulation {
         self.cdt.num_vertices()
     }
 
+    /// Number of faces, the outer one included.
+    pub fn face_count(&self) -> usize {
+        self.cdt.num_all_faces()
+    }
+
     /// The warped place of a site.
     pub fn at(&self, site: u32) -> DVec2 {
-        untame(self.cdt.vertex(spade::handles::FixedVertexHandle::from_index(site as usize)).data().at)
+        untame(self.cdt.vertex(FixedVertexHandle::from_index(site as usize)).data().at)
     }
 
     /// Adds a point; its site, or `None` if it coincides with one that exists.
     pub fn insert(&mut self, at: DVec2, hint: u32) -> Option<u32> {
         let index = self.len() as u32;
-        let hint = spade::handles::FixedVertexHandle::from_index(hint as usize);
+        let hint = FixedVertexHandle::from_index(hint as usize);
         let before = self.cdt.num_vertices();
         let vertex = self.cdt.insert_with_hint(Site { at: tame(at), index }, hint).ok()?;
         if self.cdt.num_vertices() > before {
+            // On a boundary it has triangles on both sides of it.
+            if self.cdt.vertex(vertex).out_edges().any(|edge| edge.is_constraint_edge()) {
+                self.sides = None;
+            }
             return Some(index);
         }
         // The vertex that was there already has taken the new one's data: it keeps its own number.
@@ -151,7 +172,44 @@ impl Triangulation {
 
     /// Per face of the triangulation (by index) whether it lies inside the domain.
     pub fn inside(&self) -> Vec<bool> {
-        if self.intact { self.inside_by_crossing() } else { self.inside_by_centre() }
+        match &self.sides {
+            _ if !self.intact => self.inside_by_centre(),
+            None => self.inside_by_crossing(),
+            Some(sides) => {
+                let mut inside = vec![false; self.cdt.num_all_faces()];
+                for (face, sites) in self.triangles() {
+                    inside[face] = match sites.iter().find(|&&site| site >= sides.first_inner) {
+                        Some(site) => sides.outside.is_empty() || !sides.outside.contains(site),
+                        None => sides.inside.contains(&sorted(sites)),
+                    };
+                }
+                inside
+            }
+        }
+    }
+
+    /// Keeps what is `inside` now, for it to be told more quickly once sites have been added.
+    pub fn remember(&mut self, inside: &[bool]) {
+        if !self.intact || self.sides.is_some() {
+            return;
+        }
+        let corners = self.site_of_corner.iter().max().map_or(0, |&last| last + 1);
+        let mut sides = Sides { first_inner: corners, ..Sides::default() };
+        for (face, sites) in self.triangles() {
+            if sites.iter().all(|&site| site < corners) {
+                if inside[face] {
+                    sides.inside.insert(sorted(sites));
+                }
+            } else if !inside[face] {
+                sides.outside.extend(sites.iter().filter(|&&site| site >= corners));
+            }
+        }
+        self.sides = Some(sides);
+    }
+
+    /// Whether all triangles at sites that are added from now on lie inside, if the sites do.
+    pub fn new_sites_are_inside(&self) -> bool {
+        self.sides.as_ref().is_some_and(|sides| sides.outside.is_empty())
     }
 
     /// Walks from the outside in; every boundary edge that is crossed changes the side.
@@ -214,10 +272,48 @@ impl Triangulation {
         })
     }
 
-    /// The edges that are no boundary.
-    pub fn inner_edges(&self) -> impl Iterator<Item = InnerEdge<'_>> {
-        self.cdt.undirected_edges().filter(|e| !e.is_constraint_edge()).map(InnerEdge)
+    /// The edges that are no boundary and end at a site from `fresh` on.
+    pub fn inner_edges(&self, fresh: u32) -> impl Iterator<Item = InnerEdge> + '_ {
+        let all = (fresh == 0).then(|| self.cdt.undirected_edges().map(|edge| edge.as_directed()));
+        let spokes = (fresh > 0).then(|| self.spokes(fresh)).into_iter().flatten().filter(move |edge| {
+            let [from, to] = edge.vertices().map(|v| v.data().index);
+            to < fresh || to < from
+        });
+        let edges = all.into_iter().flatten().chain(spokes);
+        edges.filter(|edge| !edge.is_constraint_edge()).map(InnerEdge::new)
     }
+
+    /// The triangles with a site from `fresh` on, as [`Self::triangles`] gives them.
+    pub fn triangles_at(&self, fresh: u32) -> impl Iterator<Item = (usize, [u32; 3])> + '_ {
+        let all = (fresh == 0).then(|| self.triangles()).into_iter().flatten();
+        let round = (fresh > 0).then(|| self.spokes(fresh)).into_iter().flatten().filter_map(|edge| {
+            let face = edge.face().as_inner()?;
+            let sites = face.vertices().map(|v| v.data().index);
+            let is_newest = sites.iter().max() == Some(&edge.from().data().index);
+            is_newest.then(|| (face.index(), sites))
+        });
+        all.chain(round)
+    }
+
+    /// The edges out of sites from `fresh` on.
+    fn spokes(
+        &self,
+        fresh: u32,
+    ) -> impl Iterator<Item = DirectedEdgeHandle<'_, Site, (), spade::CdtEdge<()>, ()>> {
+        let sites = fresh as usize..self.cdt.num_vertices();
+        sites.flat_map(|site| self.cdt.vertex(FixedVertexHandle::from_index(site)).out_edges())
+    }
+
+    /// The sites across from an edge in the faces on its sides.
+    pub fn opposite(&self, edge: &InnerEdge) -> [Option<u32>; 2] {
+        let edge = self.cdt.directed_edge(edge.edge);
+        [edge, edge.rev()].map(|side| side.opposite_vertex().map(|v| v.data().index))
+    }
+}
+
+fn sorted(mut sites: [u32; 3]) -> [u32; 3] {
+    sites.sort_unstable();
+    sites
 }
 
 /// How often the boundary runs over each pair of sites.
