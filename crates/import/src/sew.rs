@@ -20,10 +20,11 @@ const WIDEST_SHARE: f64 = 2e-4;
 
 /// The reaches within which edges of a body are joined, the nearest first, millimetres.
 pub(crate) fn reaches_mm(part: &Part, body: &Body, widest_mm: f64) -> [f64; 3] {
-    let edges = edges_of(part, body).map(|id| &part.edges[id as usize]);
-    let points = edges.flat_map(|edge| {
-        let [start, end] = [edge.start, edge.end].map(|id| part.vertices[id as usize].point);
-        [start, edge.curve.point(edge.range.at(0.5)), end]
+    let points = edges_of(part, body).map(|id| &part.edges[id as usize]).flat_map(|edge| {
+        let ends = [edge.start, edge.end].map(|id| part.vertices[id as usize].point);
+        // Rings have their size between their ends.
+        let other = if edge.start == edge.end { edge.curve.point(edge.range.at(0.5)) } else { ends[1] };
+        [ends[0], other]
     });
     let most = WIDEST_SHARE * Aabb::from_points(points).diagonal();
     let most = if most.is_finite() { most } else { 0.0 };
@@ -169,9 +170,11 @@ fn coincident_vertices(part: &Part, free: &[EdgeId], reach: f64) -> FxHashMap<Ve
     for &id in free {
         let edge = &part.edges[id as usize];
         let root = |id: VertexId| first.get(&id).copied().unwrap_or(id);
+        if edge.start == edge.end || root(edge.start) != root(edge.end) {
+            continue;
+        }
         let middle = edge.curve.point(edge.range.at(0.5));
-        let is_short = middle.distance(part.vertices[edge.start as usize].point) <= 2.0 * reach;
-        if is_short && edge.start != edge.end && root(edge.start) == root(edge.end) {
+        if middle.distance(part.vertices[edge.start as usize].point) <= 2.0 * reach {
             first.remove(&edge.start);
             first.remove(&edge.end);
         }

@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, HashMap};
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
-use crate::draft::{DraftVertex, FaceDraft};
+use crate::FaceVertex;
+use crate::draft::FaceDraft;
 use crate::ear_clipping;
 
 /// How often each pair of points is run over: forward minus backward, from the lower number to the higher.
@@ -38,14 +39,14 @@ pub(crate) fn close(draft: &mut FaceDraft, required: &[[u32; 2]], shared: &[DVec
     let mut net = NetEdges::default();
     required.iter().for_each(|&run| net.add(run, 1));
     for t in &draft.triangles {
-        let [a, b, c] = t.map(|i| draft.vertices[i as usize].point);
+        let [a, b, c] = t.map(|i| draft.vertices[i as usize].position);
         [[a, b], [b, c], [c, a]].into_iter().for_each(|run| net.add(run, -1));
     }
     let missing = net.directed();
     let before = draft.triangles.len();
     let mut known = FxHashMap::default();
     if !missing.is_empty() {
-        known.extend(draft.vertices.iter().enumerate().rev().map(|(i, vertex)| (vertex.point, i as u32)));
+        known.extend(draft.vertices.iter().enumerate().rev().map(|(i, vertex)| (vertex.position, i as u32)));
     }
     for ring in rings(&missing) {
         fill(draft, &ring, shared, &mut known);
@@ -101,7 +102,7 @@ fn fill(draft: &mut FaceDraft, ring: &[u32], shared: &[DVec3], known: &mut FxHas
 /// A vertex of the draft at `point`, an existing one where there is one.
 fn vertex_of(draft: &mut FaceDraft, point: u32, normal: DVec3, known: &mut FxHashMap<u32, u32>) -> u32 {
     *known.entry(point).or_insert_with(|| {
-        draft.vertices.push(DraftVertex { point, normal, uv: DVec2::ZERO });
+        draft.vertices.push(FaceVertex { position: point, normal, uv: DVec2::ZERO });
         draft.vertices.len() as u32 - 1
     })
 }
@@ -130,7 +131,7 @@ mod tests {
     fn a_cut_off_corner_is_put_back() {
         let (mut draft, points) = square();
         draft.vertices =
-            (0..3).map(|p| DraftVertex { point: p, normal: DVec3::Z, uv: DVec2::ZERO }).collect();
+            (0..3).map(|p| FaceVertex { position: p, normal: DVec3::Z, uv: DVec2::ZERO }).collect();
         draft.triangles = vec![[0, 1, 2]];
         assert_eq!(close(&mut draft, &SIDES, &points), 1);
     }

@@ -1,15 +1,16 @@
 //! A face's triangles before the part's faces are brought together.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use trimloop_brep::Diagnostics;
 
-use crate::FaceStatus;
+use crate::{FaceStatus, FaceVertex};
 
 /// A face's triangles, counter-clockwise about the *surface's* normal, before the part's faces are brought together.
 #[derive(Clone, Debug)]
 pub(crate) struct FaceDraft {
     pub status: FaceStatus,
-    pub vertices: Vec<DraftVertex>,
+    /// Their positions are numbers of points until the faces are brought together.
+    pub vertices: Vec<FaceVertex>,
     pub triangles: Vec<[u32; 3]>,
     /// Number of points shared by all faces; vertex points from there on are `own_points`.
     pub own_base: u32,
@@ -18,14 +19,6 @@ pub(crate) struct FaceDraft {
     pub boundary: Vec<[u32; 2]>,
     pub max_deviation_mm: f64,
     pub diagnostics: Diagnostics,
-}
-
-/// A vertex of a draft.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct DraftVertex {
-    pub point: u32,
-    pub normal: DVec3,
-    pub uv: DVec2,
 }
 
 impl FaceDraft {

@@ -7,8 +7,9 @@ use trimloop_brep::{Diagnostic, FaceGeometry, FaceId, Facets, Part, Severity};
 use trimloop_geom::Surface;
 use trimloop_trim::{EdgeSamples, Tolerance, TrimDomain};
 
+use crate::FaceVertex;
 use crate::boundary::{self, NetEdges};
-use crate::draft::{DraftVertex, FaceDraft};
+use crate::draft::FaceDraft;
 use crate::filling::Filling;
 use crate::{FaceStatus, ear_clipping};
 
@@ -114,7 +115,8 @@ impl FaceMesher<'_> {
             return;
         }
         let area = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|i| draft.position(draft.vertices[i as usize].point, &self.samples.points));
+            let [a, b, c] =
+                t.map(|i| draft.position(draft.vertices[i as usize].position, &self.samples.points));
             (b - a).cross(c - a).length() * 0.5
         };
         let (kept, put): (f64, f64) = (
@@ -141,7 +143,8 @@ impl FaceMesher<'_> {
         }
         let mut sums = vec![DVec3::ZERO; draft.vertices.len()];
         for t in &draft.triangles {
-            let [a, b, c] = t.map(|i| draft.position(draft.vertices[i as usize].point, &self.samples.points));
+            let [a, b, c] =
+                t.map(|i| draft.position(draft.vertices[i as usize].position, &self.samples.points));
             let n = (b - a).cross(c - a);
             t.iter().for_each(|&i| sums[i as usize] += n);
         }
@@ -186,8 +189,8 @@ impl FaceMesher<'_> {
             let flat = ear_clipping::newell(&corners).try_normalize().unwrap_or(DVec3::Z);
             let normals = facets.normals.get(k).copied().unwrap_or([flat; 3]);
             let base = draft.vertices.len() as u32;
-            draft.vertices.extend((0..3).map(|c| DraftVertex {
-                point: first + t[c],
+            draft.vertices.extend((0..3).map(|c| FaceVertex {
+                position: first + t[c],
                 normal: normals[c].try_normalize().unwrap_or(flat),
                 uv: glam::DVec2::ZERO,
             }));

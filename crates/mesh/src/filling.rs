@@ -6,8 +6,8 @@ use rustc_hash::FxHashMap;
 use trimloop_geom::{Interval, Surface};
 use trimloop_trim::{EdgeSamples, Tolerance, TrimDomain, TrimVertex, doubtful_quarters};
 
+use crate::FaceVertex;
 use crate::crease::Creases;
-use crate::draft::DraftVertex;
 use crate::fringe::Fringe;
 use crate::seeds::seeds;
 use crate::triangulation::{InnerEdge, Triangulation};
@@ -433,7 +433,7 @@ impl<'a> Filling<'a> {
 
     /// The triangles inside, as vertices and indices, and the points the filling adds (numbered on after the domain's
     /// own).
-    pub fn finish(mut self) -> (Vec<DraftVertex>, Vec<[u32; 3]>, Vec<DVec3>) {
+    pub fn finish(mut self) -> (Vec<FaceVertex>, Vec<[u32; 3]>, Vec<DVec3>) {
         let inside = self.inside.take().unwrap_or_else(|| self.triangulation.inside());
         let distinct = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|s| self.sites[s as usize].point);
@@ -445,8 +445,8 @@ impl<'a> Filling<'a> {
             .filter(|(f, t)| inside[*f] && distinct(t))
             .map(|(_, t)| t)
             .collect();
-        let mut vertices: Vec<DraftVertex> =
-            self.sites.iter().map(|s| DraftVertex { point: s.point, normal: s.normal, uv: s.uv }).collect();
+        let mut vertices: Vec<FaceVertex> =
+            self.sites.iter().map(|s| FaceVertex { position: s.point, normal: s.normal, uv: s.uv }).collect();
         self.turn_pole_normals(&mut vertices, &triangles);
         self.split_normals(&mut vertices, &mut triangles);
         let first_own =
@@ -455,7 +455,7 @@ impl<'a> Filling<'a> {
     }
 
     /// At a pole that a surface runs on through, the normal is that of the side that the face is on.
-    fn turn_pole_normals(&self, vertices: &mut [DraftVertex], triangles: &[[u32; 3]]) {
+    fn turn_pole_normals(&self, vertices: &mut [FaceVertex], triangles: &[[u32; 3]]) {
         for t in triangles.iter().filter(|t| t.iter().any(|&s| self.sites[s as usize].pole)) {
             let centre = t.iter().map(|&s| self.sites[s as usize].uv).sum::<DVec2>() / 3.0;
             for &corner in t.iter().filter(|&&s| self.sites[s as usize].pole) {
@@ -469,7 +469,7 @@ impl<'a> Filling<'a> {
     }
 
     /// On creases, gives each side vertices with its own normal.
-    fn split_normals(&self, vertices: &mut Vec<DraftVertex>, triangles: &mut [[u32; 3]]) {
+    fn split_normals(&self, vertices: &mut Vec<FaceVertex>, triangles: &mut [[u32; 3]]) {
         if self.sites.iter().all(|site| !site.creased) {
             return;
         }
@@ -482,7 +482,7 @@ impl<'a> Filling<'a> {
                 let normal = self.normal(beside);
                 let key = (normal * 1e6).round().as_i64vec3().to_array();
                 *corner = *known.entry((*corner, key)).or_insert_with(|| {
-                    vertices.push(DraftVertex { normal, ..vertices[*corner as usize] });
+                    vertices.push(FaceVertex { normal, ..vertices[*corner as usize] });
                     vertices.len() as u32 - 1
                 });
             }

@@ -45,7 +45,9 @@ impl Orientation {
             .collect();
         let corners = |faces: &[usize]| -> Vec<DVec3> {
             let drafts = faces.iter().map(|&face| &drafts[face]);
-            drafts.flat_map(|draft| draft.vertices.iter().map(|v| draft.position(v.point, shared))).collect()
+            drafts
+                .flat_map(|draft| draft.vertices.iter().map(|v| draft.position(v.position, shared)))
+                .collect()
         };
         let boxes: Vec<Aabb> = made.iter().map(|faces| Aabb::from_points(corners(faces))).collect();
         for (k, faces) in made.iter().enumerate() {
@@ -67,7 +69,7 @@ impl Orientation {
     /// and Strackee 1983).
     fn contains(&self, faces: &[usize], point: DVec3, drafts: &[FaceDraft], shared: &[DVec3]) -> bool {
         let angle = |draft: &FaceDraft, t: &[u32; 3]| {
-            let [a, b, c] = t.map(|i| draft.position(draft.vertices[i as usize].point, shared) - point);
+            let [a, b, c] = t.map(|i| draft.position(draft.vertices[i as usize].position, shared) - point);
             let [la, lb, lc] = [a, b, c].map(DVec3::length);
             let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
             2.0 * a.dot(b.cross(c)).atan2(below)
@@ -138,7 +140,8 @@ impl Orientation {
             .triangles
             .iter()
             .map(|t| {
-                let [a, b, c] = t.map(|i| draft.position(draft.vertices[i as usize].point, shared) - origin);
+                let [a, b, c] =
+                    t.map(|i| draft.position(draft.vertices[i as usize].position, shared) - origin);
                 a.dot(b.cross(c)) / 6.0
             })
             .sum();

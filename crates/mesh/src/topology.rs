@@ -17,8 +17,9 @@ pub(crate) fn of_shells(
     for (body, b) in part.bodies.iter().enumerate() {
         for (shell, s) in b.shells.iter().enumerate() {
             let faces: Vec<usize> = s.faces.iter().map(|f| f.face as usize).collect();
-            let (open_edges, non_manifold_edges) = count_edges(&faces, drafts, turned);
-            let volume_mm3 = faces.iter().map(|&f| volume(mesh, f)).sum();
+            let volumes = || faces.iter().map(|&f| volume(mesh, f)).sum();
+            let ((open_edges, non_manifold_edges), volume_mm3) =
+                rayon::join(|| count_edges(&faces, drafts, turned), volumes);
             out.push(ShellTopology { body, shell, open_edges, non_manifold_edges, volume_mm3 });
         }
     }
