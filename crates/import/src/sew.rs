@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use trimloop_brep::{Body, BodyKind, Diagnostic, Diagnostics, Edge, EdgeId, Part, Severity, VertexId};
-use trimloop_geom::{Aabb, Curve};
+use trimloop_brep::{
+    Body, BodyKind, Diagnostic, Diagnostics, Edge, EdgeId, FaceGeometry, FaceId, Part, Severity, VertexId,
+};
+use trimloop_geom::{Aabb, Curve, Surface};
 
 use crate::hint::over;
 use crate::parallel::map_each;
@@ -93,7 +95,8 @@ fn sew_edges(part: &mut Part, body: usize, free: &[EdgeId], reach: f64) -> usize
         by_ends.entry((start.min(end), start.max(end))).or_default().push(id);
     }
     let groups: Vec<Vec<EdgeId>> = by_ends.into_values().filter(|group| group.len() > 1).collect();
-    let joined = map_each(&groups, |group| pairs(part, group, reach));
+    let faces = FacesOfEdges::new(part, &part.bodies[body]);
+    let joined = map_each(&groups, |group| pairs(part, &faces, group, reach));
     let replaced: FxHashMap<EdgeId, (EdgeId, bool)> = joined
         .into_iter()
         .flatten()
@@ -132,13 +135,48 @@ fn sew_edges(part: &mut Part, body: usize, free: &[EdgeId], reach: f64) -> usize
     replaced.len()
 }
 
+/// The face that uses each edge, one of them where there are more.
+struct FacesOfEdges(Vec<FaceId>);
+
+impl FacesOfEdges {
+    fn new(part: &Part, body: &Body) -> Self {
+        let mut faces = vec![FaceId::MAX; part.edges.len()];
+        for used in body.shells.iter().flat_map(|shell| &shell.faces) {
+            let coedges = part.faces[used.face as usize].loops.iter().flat_map(|bound| &bound.coedges);
+            coedges.for_each(|coedge| faces[coedge.edge as usize] = used.face);
+        }
+        Self(faces)
+    }
+
+    /// Whether two edges can be one: not the two sides of a spline that does not close there, which have two places in
+    /// its parameter plane.
+    fn may_join(&self, part: &Part, a: EdgeId, b: EdgeId) -> bool {
+        let face = self.0[a as usize];
+        if face != self.0[b as usize] || face == FaceId::MAX {
+            return true;
+        }
+        match &part.faces[face as usize].geometry {
+            FaceGeometry::Surface(surface) => match &**surface {
+                Surface::Nurbs(_) | Surface::Extrusion { .. } | Surface::Revolution { .. } => {
+                    surface.periods() != [None, None]
+                }
+                _ => true,
+            },
+            _ => true,
+        }
+    }
+}
+
 /// Among edges between the same vertices those that coincide, each with an earlier one.
-fn pairs(part: &Part, group: &[EdgeId], reach: f64) -> Vec<(EdgeId, EdgeId)> {
+fn pairs(part: &Part, faces: &FacesOfEdges, group: &[EdgeId], reach: f64) -> Vec<(EdgeId, EdgeId)> {
     let mut waiting: Vec<EdgeId> = Vec::new();
     let mut out = Vec::new();
     for &id in group {
         let edge = &part.edges[id as usize];
-        match waiting.iter().position(|&other| coincide(edge, &part.edges[other as usize], reach)) {
+        let joins = |&other: &EdgeId| {
+            faces.may_join(part, id, other) && coincide(edge, &part.edges[other as usize], reach)
+        };
+        match waiting.iter().position(joins) {
             Some(place) => out.push((id, waiting.swap_remove(place))),
             None => waiting.push(id),
         }

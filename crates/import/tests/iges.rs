@@ -336,3 +336,33 @@ fn a_boolean_tree_is_lost_and_not_in_silence() {
     assert_eq!(lost.len(), 1, "its operands are not shown by themselves");
     assert_eq!(lost[0].entity, EntityRef::Iges(tree as u32));
 }
+
+/// A trimmed surface that has no outer boundary of its own, over a plane that has one.
+#[test]
+fn a_bounded_plane_bounds_what_is_cut_out_of_it() {
+    let mut deck = Deck::default();
+    let rim = deck.add(100, "00010000", 0, "0.,0.,0.,10.,0.,10.,0.");
+    let plane = deck.add_form(108, 1, "00010000", 0, &format!("0.,0.,1.,0.,{rim},0.,0.,0."));
+    let ring = deck.add(100, "00010000", 0, "0.,0.,0.,2.,0.,2.,0.");
+    let hole = deck.add(142, "00010000", 0, &format!("0,{plane},0,{ring},2"));
+    deck.add(144, "00000000", 0, &format!("{plane},1,1,0,{hole}"));
+    let model = model(&deck);
+    let [face] = &model.parts[0].faces[..] else { panic!("{:?}", model.parts[0].faces) };
+    assert_eq!(face.loops.iter().map(|bound| bound.outer).collect::<Vec<_>>(), [true, false]);
+}
+
+/// Six digits of two pi: the tube closes.
+#[test]
+fn a_turn_of_six_digits_is_a_whole_one() {
+    let mut deck = Deck::default();
+    let axis = deck.add(110, "00010000", 0, "0.,0.,0.,0.,0.,1.");
+    let line = deck.add(110, "00010000", 0, "2.,0.,0.,2.,0.,3.");
+    deck.add(120, "00000000", 0, &format!("{axis},{line},0.,6.28318"));
+    let model = model(&deck);
+    let FaceGeometry::Surface(surface) = &model.parts[0].faces[0].geometry else { panic!("a surface") };
+    assert!(surface.periods()[0].is_some());
+    let used: Vec<u32> =
+        model.parts[0].faces[0].loops.iter().flat_map(|l| &l.coedges).map(|c| c.edge).collect();
+    assert_eq!(used.len(), 4, "two rings and the seam twice");
+    assert_eq!(used.iter().collect::<std::collections::BTreeSet<_>>().len(), 3);
+}

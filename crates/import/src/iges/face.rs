@@ -93,11 +93,12 @@ impl FaceReader<'_> {
         match parameters.directory.entity_type {
             144 => {
                 let surface = parameters.pointer()?;
-                let has_outer = parameters.integer()? != 0;
+                let told = parameters.integer()? != 0;
                 let inner = parameters.count(0)?;
                 let outer = parameters.pointer()?;
+                let has_outer = told && outer != 0;
                 let mut boundaries = Vec::new();
-                if has_outer && outer != 0 {
+                if has_outer {
                     boundaries.push(outer);
                 }
                 for _ in 0..inner {
@@ -113,16 +114,11 @@ impl FaceReader<'_> {
                 self.trimmed(surface, &boundaries, true)
             }
             108 => {
-                parameters.reals(4)?;
-                let boundary = parameters.pointer()?;
-                if boundary == 0 {
-                    return Err(parameters.fault("is a plane without bounds"));
-                }
+                let bound = self.plane_bound(entry)?;
+                let bound = bound.ok_or_else(|| parameters.fault("is a plane without bounds"))?;
                 let ground = self.reader.surface(entry)?;
                 let surface = Arc::new(ground.surface);
-                let pieces = self.reader.curve(boundary)?;
-                let bounds = vec![BoundDraft::new(pieces, boundary, true)?];
-                Ok(FaceDraft { surface, same_sense: !ground.reversed, bounds })
+                Ok(FaceDraft { surface, same_sense: !ground.reversed, bounds: vec![bound] })
             }
             _ => {
                 let ground = self.reader.surface(entry)?;
@@ -136,10 +132,26 @@ impl FaceReader<'_> {
         }
     }
 
+    /// The curve that bounds a plane of type 108, where the entity is one and has one.
+    fn plane_bound(&self, entry: u32) -> Outcome<Option<BoundDraft>> {
+        let mut parameters = self.reader.parameters(entry)?;
+        if parameters.directory.entity_type != 108 {
+            return Ok(None);
+        }
+        parameters.reals(4)?;
+        match parameters.pointer()? {
+            0 => Ok(None),
+            curve => BoundDraft::new(self.reader.curve(curve)?, curve, true).map(Some),
+        }
+    }
+
     fn trimmed(&self, surface: u32, boundaries: &[u32], has_outer: bool) -> Outcome<FaceDraft> {
         let ground = self.reader.surface(surface)?;
         let mut bounds = Vec::with_capacity(boundaries.len() + 1);
         let exact = if has_outer {
+            Arc::new(ground.surface.clone())
+        } else if let Some(bound) = self.plane_bound(surface)? {
+            bounds.push(bound);
             Arc::new(ground.surface.clone())
         } else {
             let whole = ground.untrimmed();

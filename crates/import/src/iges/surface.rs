@@ -26,6 +26,9 @@ pub(crate) struct Ground {
 /// Types of entities that are surfaces.
 pub(crate) const SURFACES: [i32; 12] = [108, 114, 118, 120, 122, 128, 140, 190, 192, 194, 196, 198];
 
+/// Surfaces that are revolved by as much as this less than a whole turn, or more, are closed.
+const WHOLE_TURN_RAD: f64 = 3e-5;
+
 impl Ground {
     fn whole(surface: Surface) -> Self {
         Self { surface, parameters: DAffine3::IDENTITY, domain: None, reversed: false }
@@ -156,10 +159,14 @@ impl Reader<'_> {
             }
             curve => (curve, range),
         };
+        let angles = Interval::new(start.min(end), start.max(end));
+        // A whole turn as written with a few digits.
+        let is_whole = (angles.length() - TAU).abs() <= WHOLE_TURN_RAD;
+        let angles = if is_whole { Interval::new(angles.start, angles.start + TAU) } else { angles };
         Ok(Ground {
             surface: Surface::Revolution { profile: curve.into(), origin, axis },
             parameters,
-            domain: Some([Interval::new(start.min(end), start.max(end)), range]),
+            domain: Some([angles, range]),
             reversed: true,
         })
     }
