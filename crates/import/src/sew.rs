@@ -148,22 +148,39 @@ impl FacesOfEdges {
         Self(faces)
     }
 
-    /// Whether two edges can be one: not the two sides of a spline that does not close there, which have two places in
-    /// its parameter plane.
+    /// Whether two edges can be one. Two of the same face can where the face closes in between: a spline that does not,
+    /// or that lies over itself, has two places in its parameter plane for them.
     fn may_join(&self, part: &Part, a: EdgeId, b: EdgeId) -> bool {
         let face = self.0[a as usize];
         if face != self.0[b as usize] || face == FaceId::MAX {
             return true;
         }
-        match &part.faces[face as usize].geometry {
-            FaceGeometry::Surface(surface) => match &**surface {
-                Surface::Nurbs(_) | Surface::Extrusion { .. } | Surface::Revolution { .. } => {
-                    surface.periods() != [None, None]
-                }
-                _ => true,
-            },
-            _ => true,
+        let face = &part.faces[face as usize];
+        let FaceGeometry::Surface(surface) = &face.geometry else { return true };
+        let is_free = matches!(
+            **surface,
+            Surface::Nurbs(_)
+                | Surface::Extrusion { .. }
+                | Surface::Revolution { .. }
+                | Surface::Offset { .. }
+        );
+        let periods = surface.periods();
+        if !is_free || periods == [None, None] {
+            return !is_free;
         }
+        let middle = |id: EdgeId| {
+            let coedge =
+                face.loops.iter().flat_map(|bound| &bound.coedges).find(|coedge| coedge.edge == id)?;
+            let edge = &part.edges[id as usize];
+            Some(coedge.pcurve.as_ref()?.point(edge.range.at(0.5)).truncate())
+        };
+        let (Some(a), Some(b)) = (middle(a), middle(b)) else { return true };
+        let domain = surface.domain();
+        (0..2).all(|k| {
+            let apart = (a - b)[k].abs();
+            let near = 1e-2 * domain[k].length();
+            apart <= near || periods[k].is_some_and(|period| (apart - period).abs() <= near)
+        })
     }
 }
 

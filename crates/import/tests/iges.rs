@@ -366,3 +366,20 @@ fn a_turn_of_six_digits_is_a_whole_one() {
     assert_eq!(used.len(), 4, "two rings and the seam twice");
     assert_eq!(used.iter().collect::<std::collections::BTreeSet<_>>().len(), 3);
 }
+
+/// A tube whose rim runs out and back over itself: the two ways are two places on the tube, and stay two edges.
+#[test]
+fn sides_that_lie_on_each_other_elsewhere_on_a_surface_stay_two() {
+    let mut deck = Deck::default();
+    let rim = [[0.0, 0.0], [4.0, 0.0], [6.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [0.0, 0.0]];
+    let row = |z: f64| rim.map(|[x, y]| [x, y, z]);
+    let points: Vec<Point> = row(0.0).into_iter().chain(row(3.0)).collect();
+    let knots = "0.,0.,1.,2.,3.,4.,5.,6.,6.,0.,0.,1.,1.";
+    let weights = ["1."; 14].join(",");
+    let points = coordinates(&points);
+    deck.add(128, "00000000", 0, &format!("6,1,1,1,1,0,1,0,0,{knots},{weights},{points},0.,6.,0.,1."));
+    let model = model(&deck);
+    let coedges = &model.parts[0].faces[0].loops[0].coedges;
+    let edges: std::collections::BTreeSet<u32> = coedges.iter().map(|coedge| coedge.edge).collect();
+    assert_eq!(coedges.len() - edges.len(), 1, "only the seam is one edge used twice");
+}
