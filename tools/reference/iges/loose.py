@@ -8,6 +8,7 @@ from iges.catalogue import iges
 from iges_brep import outward
 from iges_deck import PART
 from iges_model import IgesModel, around, box_sides
+from plane_curves import Spline
 from step_model import cross, plus, times
 
 BOX = ((0.0, 0.0, 0.0), (30.0, 20.0, 10.0))
@@ -80,6 +81,20 @@ def box_untrimmed_patches():
         entity = model.bilinear(a, u, v)
         size = sum(x * x for x in cross(u, v)) ** 0.5
         model.know(entity, "bspline", size, times(0.25, plus(a, b, c, d)), around([(a, b, c, d)]))
+    return model, model.reference(volume=VOLUME)
+
+
+@iges("loose_box_spline_boundaries", "a box whose sides are each bounded by one spline of degree 1 with four corners")
+def box_spline_boundaries():
+    model = IgesModel("loose_box_spline_boundaries")
+    for k, polygon in enumerate(box_sides(*BOX)):
+        # Each starts at another of its corners.
+        points = [*polygon[k % 4 :], *polygon[: k % 4]]
+        points.append(points[0])
+        boundary = model.spline(Spline(1, points, [0, 0, 1, 2, 3, 4, 4]), closed=True)
+        face = model.trimmed(model.plane(polygon[0], outward(polygon)), boundary)
+        width, height = sorted(b - a for a, b in zip(*around([polygon])))[1:]
+        model.know(face, "plane", width * height, times(0.25, plus(*polygon)), around([polygon]))
     return model, model.reference(volume=VOLUME)
 
 

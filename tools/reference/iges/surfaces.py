@@ -216,6 +216,14 @@ def disk_of_revolution():
     return alone(model)
 
 
+@iges("surface_120_six_digits", "a whole turn that ends at 6.28318: a cylinder that closes")
+def six_digits():
+    model = IgesModel("surface_120_six_digits")
+    entity = revolution(model, model.line(on_axes(8.0, -3.0), on_axes(8.0, 9.0)), 0.0, 6.28318)
+    model.know_pieces(entity, "cylinder", turned(lambda t: (8.0 + 0 * t, t), (-3.0, 9.0), 0.0, 2 * pi))
+    return alone(model)
+
+
 def meridian(model: IgesModel, centre, radius: float, first: float, last: float) -> int:
     """A circular arc in the half plane at angle zero about the slanting axis; angles from the radius to the axis."""
     # The arc's x is the radius, its y the axis, so that its z is radius x axis.

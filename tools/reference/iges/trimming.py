@@ -330,3 +330,15 @@ def bounded_one():
     face = model.bounded(ground(model), [[(model.polyline(*lifted(RIM)), 1, [])]])
     model.know_pieces(face, "bspline", flat_piece())
     return model, model.reference()
+
+
+@iges("trim_bounded_plane", "a hole in a bounded plane (108 form 1): no outer boundary but the plane's own")
+def bounded_plane():
+    model = IgesModel("trim_bounded_plane")
+    rim = model.circle((0.0, 0.0), 10.0)
+    plane = model.add(108, [0.0, 0.0, 1.0, 0.0, rim, 0.0, 0.0, 0.0, 0.0], form=1, status=PART)
+    hole = model.on_surface(plane, model.circle((3.0, 0.0), 2.0))
+    face = model.add(144, [plane, 1, 1, 0, hole])
+    centroid = (-3.0 * 4.0 / 96.0, 0.0, 0.0)
+    model.know(face, "plane", 96.0 * pi, centroid, [[-10.0, -10.0, 0.0], [10.0, 10.0, 0.0]])
+    return model, model.reference()
