@@ -293,6 +293,10 @@ impl FaceReader<'_> {
             entry => self.reader.curve(entry),
         };
         let images = self.images(in_plane, ground);
+        // Where there is no choice there is nothing to be weighed.
+        if images.as_ref().is_ok_and(Vec::is_empty) {
+            return model;
+        }
         if let (Ok(pieces), Ok(images)) = (&mut model, &images)
             && pieces.len() == images.len()
         {
@@ -319,8 +323,7 @@ impl FaceReader<'_> {
         let out: Vec<Piece> = images.into_iter().map(on_surface).collect();
         // Where both say the same, the curve in the model is the one that neighbours have too.
         match &model {
-            Ok(pieces) if out.is_empty() || prefers_plane && are_alike(pieces, &out, reach) => model,
-            _ if out.is_empty() => model,
+            Ok(pieces) if prefers_plane && are_alike(pieces, &out, reach) => model,
             _ => Ok(out),
         }
     }
