@@ -383,3 +383,18 @@ fn sides_that_lie_on_each_other_elsewhere_on_a_surface_stay_two() {
     let edges: std::collections::BTreeSet<u32> = coedges.iter().map(|coedge| coedge.edge).collect();
     assert_eq!(coedges.len() - edges.len(), 1, "only the seam is one edge used twice");
 }
+
+/// A plane without a reference direction has the axes that OpenCASCADE gives it.
+#[test]
+fn planes_lie_along_the_coordinate_planes() {
+    for (normal, x) in [("0.,0.,1.", DVec3::X), ("0.,0.,-1.", DVec3::NEG_X), ("1.,0.,0.", DVec3::Z)] {
+        let mut deck = Deck::default();
+        let rim = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [0.5, 0.0, 0.0], [0.0, 0.0, 0.0]];
+        let rim = deck.add_form(106, 12, "00010000", 0, &format!("2,4,{}", coordinates(&rim)));
+        deck.add_form(108, 1, "00000000", 0, &format!("{normal},0.,{rim},0.,0.,0.,0."));
+        let model = model(&deck);
+        let FaceGeometry::Surface(surface) = &model.parts[0].faces[0].geometry else { panic!("a plane") };
+        let trimloop_geom::Surface::Plane { frame } = &**surface else { panic!("{surface:?}") };
+        assert!((frame.x - x).length() < 1e-12, "{normal}: {}", frame.x);
+    }
+}

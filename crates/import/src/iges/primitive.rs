@@ -15,7 +15,7 @@ use super::face::chained;
 use super::look::{levels_of, name_of};
 use super::reader::{Fault, Outcome, Parameters, Reader};
 use super::shape::ShapeBuilder;
-use super::surface::elementary;
+use super::surface::{beside, elementary};
 
 /// Types of entities that are primitive solids.
 pub(crate) const PRIMITIVES: [i32; 9] = [150, 152, 154, 156, 158, 160, 162, 164, 168];
@@ -112,7 +112,7 @@ impl Maker<'_, '_> {
                 let [major, minor] = [parameters.real()?, parameters.real()?];
                 let origin = location(parameters);
                 let axis = direction(parameters, DVec3::Z)?;
-                let frame = Frame::new(origin, axis, axis.any_orthogonal_vector());
+                let frame = Frame::new(origin, axis, beside(axis));
                 let torus = Surface::Torus { frame, major, minor, v_range: None };
                 self.closed(parameters, torus, minor > 0.0 && major > minor, map)?;
             }
@@ -448,7 +448,7 @@ fn plane_through(pieces: &[Piece], or: DVec3) -> Frame {
     let samples: Vec<DVec3> = samples.collect();
     let area: DVec3 = samples.windows(2).map(|pair| pair[0].cross(pair[1])).sum();
     let normal = area.try_normalize().unwrap_or(or);
-    Frame::new(origin, normal, normal.any_orthogonal_vector())
+    Frame::new(origin, normal, beside(normal))
 }
 
 /// The wall over a piece: a plane or a cylinder where it is one.
@@ -502,5 +502,5 @@ fn placed(parameters: &mut Parameters<'_>) -> Outcome<DAffine3> {
 fn axial(parameters: &mut Parameters<'_>) -> Outcome<DAffine3> {
     let origin = location(parameters);
     let z = direction(parameters, DVec3::Z)?;
-    Ok(Frame::new(origin, z, z.any_orthogonal_vector()).to_affine())
+    Ok(Frame::new(origin, z, beside(z)).to_affine())
 }

@@ -230,7 +230,7 @@ impl Reader<'_> {
         if matches!(kind, 194 | 198) {
             second = parameters.real()?;
         }
-        let across = axis.any_orthogonal_vector();
+        let across = beside(axis);
         let across = if is_parametrised { direction(parameters, across)? } else { across };
         let frame = Frame::new(at, axis, across);
         let surface = match kind {
@@ -404,8 +404,25 @@ fn plane(parameters: &mut Parameters<'_>) -> Outcome<Ground> {
     if !(length > 0.0) {
         return Err(parameters.fault("is a plane without a normal"));
     }
-    let frame = Frame::new(normal * (distance / length), normal, normal.any_orthogonal_vector());
+    let frame = Frame::new(normal * (distance / length), normal, beside(normal));
     Ok(Ground::whole(Surface::Plane { frame }))
+}
+
+/// A direction at right angles to an axis for which the file names no reference direction: in the coordinate plane that
+/// is nearest to the axis, as OpenCASCADE takes it. What depends on it, seams and the diagonals of rectangles, is then
+/// where its users know it.
+pub(crate) fn beside(axis: DVec3) -> DVec3 {
+    let DVec3 { x, y, z } = axis;
+    let size = axis.abs();
+    if size.y <= size.x && size.y <= size.z {
+        if size.x > size.z { DVec3::new(-z, 0.0, x) } else { DVec3::new(z, 0.0, -x) }
+    } else if size.x <= size.y && size.x <= size.z {
+        if size.y > size.z { DVec3::new(0.0, -z, y) } else { DVec3::new(0.0, z, -y) }
+    } else if size.x > size.y {
+        DVec3::new(-y, x, 0.0)
+    } else {
+        DVec3::new(y, -x, 0.0)
+    }
 }
 
 /// Type 128: the first index of weights and points runs along u and changes first.
