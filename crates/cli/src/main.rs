@@ -10,6 +10,7 @@ mod inspect;
 mod inspect_text;
 mod interrupt;
 mod manual;
+mod memory;
 mod message;
 mod outcome;
 mod plan;
@@ -33,6 +34,7 @@ use crate::arguments::{Arguments, Command};
 use crate::outcome::Outcome;
 
 fn main() -> ExitCode {
+    memory::take_in_bulk();
     let result = match Arguments::parse().command {
         Command::Convert(arguments) => convert::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
