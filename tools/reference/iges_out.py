@@ -34,7 +34,8 @@ colour_per_face cone_cut_in_hyperbola cone_with_apex cylinder cylinder_with_cros
 cylinder_with_hole_across_seam ellipsoid frustum hollow_ball lens loft_airfoil loft_circle_to_square
 offset_surface paraboloid pipe_tee plate_perforated ring several_solids sheet_open_shell shell_thin
 solid_sheet_and_wire sphere sphere_segment sphere_with_hole_off_axis spline_closed_extruded spline_hill_drilled
-spline_revolved torus torus_with_hole
+spline_revolved torus torus_with_hole torus_with_hole_on_both_seams torus_with_pocket_on_seam
+torus_with_pockets_on_seams
 """.split()
 
 #: Not written: nothing in loose faces tells a void from a second body.

@@ -5,7 +5,7 @@ use trimloop_brep::{Diagnostic, EntityRef, Severity};
 use trimloop_geom::{Direction, Interval, Surface};
 
 use crate::polygon::{contains, segments_cross, signed_area};
-use crate::unroll::{UnrolledLoop, pole_pieces};
+use crate::unroll::{UnrolledLoop, pole_pieces, without_slits};
 use crate::{Tolerance, TrimDomain, TrimError, TrimLoop, TrimVertex, cut};
 
 /// A surface with the tolerance that lines on it are sampled by.
@@ -52,7 +52,8 @@ fn flat_piece(chart: &Chart<'_>, loops: Vec<UnrolledLoop>, domain: &mut TrimDoma
     let Some(outer) = outer else { return Ok(()) };
     // A loop that brings its own seam encloses the face whatever its direction, which some writers get wrong.
     if area(&loops[outer]) < 0.0 && !seamed[outer] && closes_up(chart.surface) {
-        return whole(chart, loops, domain);
+        // Lines that are run both ways lie in the face, and only lead from one part of a hole to another.
+        return whole(chart, loops.into_iter().map(without_slits).collect(), domain);
     }
     let mut loops = loops;
     let boundary = loops.remove(outer);

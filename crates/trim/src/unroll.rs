@@ -1,5 +1,7 @@
 //! A loop's samples in the parameter plane, unrolled over closed directions and led through poles.
 
+use std::collections::HashMap;
+
 use glam::DVec2;
 use trimloop_brep::{FaceId, Loop};
 use trimloop_geom::{Direction, Singularity, Surface};
@@ -13,7 +15,7 @@ pub(crate) struct UnrolledLoop {
     pub vertices: Vec<TrimVertex>,
     /// How often it goes round in u and in v.
     pub winding: [i32; 2],
-    /// Whether it runs over some edge both ways: it closes over a seam of its own, and its inside is what it encloses.
+    /// Whether it runs along a seam both ways, a period apart: its inside is what it encloses.
     pub seamed: bool,
     /// Whether it leads through a pole, which it passes on the side that its direction tells.
     pub through_pole: bool,
@@ -48,12 +50,55 @@ pub(crate) fn unroll(
     if let Some(first) = raw.iter().position(|r| r.singular.is_none()) {
         raw.rotate_left(first);
     }
-    let seamed =
+    let runs_both_ways =
         l.coedges.iter().any(|c| l.coedges.iter().any(|d| d.edge == c.edge && d.reversed != c.reversed));
     let through_pole = raw.iter().any(|r| r.singular.is_some());
     let out = Vec::with_capacity(raw.len() + 4);
     let unroller = Unroller { periods, singularities: &singularities, angular_rad, out };
-    Ok(UnrolledLoop { seamed, through_pole, ..unroller.run(&raw) })
+    let unrolled = unroller.run(&raw);
+    let seamed = runs_both_ways && has_seam(&unrolled.vertices);
+    Ok(UnrolledLoop { seamed, through_pole, ..unrolled })
+}
+
+/// Whether a line is run both ways at different parameters.
+fn has_seam(vertices: &[TrimVertex]) -> bool {
+    let next = vertices.iter().cycle().skip(1);
+    let segments: Vec<[TrimVertex; 2]> =
+        vertices.iter().zip(next).map(|(a, b)| [*a, *b]).filter(|[a, b]| a.point != b.point).collect();
+    let there: HashMap<[u32; 2], DVec2> = segments.iter().map(|[a, b]| ([a.point, b.point], a.uv)).collect();
+    segments.iter().any(|[a, b]| there.get(&[b.point, a.point]).is_some_and(|&back| !is_at(back, b.uv)))
+}
+
+/// The loop without lines that it runs along and at once back again.
+pub(crate) fn without_slits(vertices: Vec<TrimVertex>) -> Vec<TrimVertex> {
+    let same = |a: &TrimVertex, b: &TrimVertex| a.point == b.point && is_at(a.uv, b.uv);
+    let mut out: Vec<TrimVertex> = Vec::with_capacity(vertices.len());
+    for vertex in vertices {
+        if out.len() > 1 && same(&out[out.len() - 2], &vertex) {
+            out.pop();
+        } else {
+            out.push(vertex);
+        }
+    }
+    // The loop may have begun on such a line.
+    let (mut from, mut to) = (0, out.len());
+    while to - from > 2 {
+        if same(&out[from + 1], &out[to - 1]) {
+            (from, to) = (from + 1, to - 1);
+        } else if same(&out[from], &out[to - 2]) {
+            to -= 2;
+        } else {
+            break;
+        }
+    }
+    out.truncate(to);
+    out.drain(..from);
+    out
+}
+
+/// Whether two parameters of one point are the same, and not a period apart.
+fn is_at(a: DVec2, b: DVec2) -> bool {
+    a.distance(b) <= 1e-6 * (1.0 + a.abs().max_element())
 }
 
 fn gather(l: &Loop, face: FaceId, samples: &EdgeSamples) -> Result<Vec<Raw>, TrimError> {
@@ -174,8 +219,35 @@ fn pole_step(difference: f64, period: f64, upper: bool) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::pole_step;
     use std::f64::consts::{PI, TAU};
+
+    use glam::DVec2;
+
+    use super::{has_seam, pole_step, without_slits};
+    use crate::TrimVertex;
+
+    fn polygon(corners: &[(u32, f64, f64)]) -> Vec<TrimVertex> {
+        corners.iter().map(|&(point, u, v)| TrimVertex { uv: DVec2::new(u, v), point }).collect()
+    }
+
+    /// Points 1 and 2 lie on the seam: of a tube run round once, and of a hole with a line that leads from it.
+    #[test]
+    fn a_seam_is_run_along_a_period_apart_and_a_slit_is_not() {
+        let tube = polygon(&[(1, 0.0, 0.0), (1, TAU, 0.0), (2, TAU, 5.0), (2, 0.0, 5.0)]);
+        assert!(has_seam(&tube));
+        assert_eq!(without_slits(tube.clone()), tube);
+        let hole = [(0, 1.0, 1.0), (1, 0.0, 1.0), (2, 0.0, 4.0), (1, 0.0, 1.0), (3, 1.0, 0.0)];
+        let bare = [(0, 1.0, 1.0), (1, 0.0, 1.0), (3, 1.0, 0.0)];
+        assert!(!has_seam(&polygon(&hole)));
+        for start in 0..hole.len() {
+            let mut turned = hole;
+            turned.rotate_left(start);
+            let mut left = without_slits(polygon(&turned));
+            let first = left.iter().position(|vertex| vertex.point == 0).expect("a corner of the hole");
+            left.rotate_left(first);
+            assert_eq!(left, polygon(&bare), "from {start}");
+        }
+    }
 
     #[test]
     fn a_loop_turns_left_at_a_pole() {

@@ -122,6 +122,18 @@ def inner_only():
     return model, model.reference()
 
 
+@iges(
+    "trim_outer_without_curves",
+    "an outer boundary of no curves (CPTR and BPTR 0), beside an inner one that runs round the face, as OpenCASCADE writes",
+)
+def outer_without_curves():
+    model = IgesModel("trim_outer_without_curves")
+    rim = Boundary(model.polyline(*lifted(RIM)), model.polyline_2d(*RIM), 3)
+    face = model.trimmed(ground(model), Boundary(0, 0, 0), [rim])
+    model.know_pieces(face, "bspline", flat_piece())
+    return model, model.reference()
+
+
 @iges("trim_nothing", "a trimmed surface without any boundary (N1 = 0, N2 = 0)")
 def nothing():
     model = IgesModel("trim_nothing")

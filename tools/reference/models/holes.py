@@ -1,6 +1,6 @@
 """Holes in curved faces, and loops that meet seams and poles."""
 
-from math import pi
+from math import cos, pi, sin
 
 import cadquery as cq
 
@@ -72,6 +72,30 @@ def torus_with_hole():
 @fixture("torus_with_hole_on_both_seams", "a torus drilled where its two seams cross")
 def torus_with_hole_on_both_seams():
     return whole_torus().cut(drill(1.5, 12, (25, 0, 0), (1, 0, 0)))
+
+
+def pocket(at, tilt_deg: float = 40) -> cq.Shape:
+    """A small block about a point, askew to all axes."""
+    return cq.Workplane().box(9, 8, 7).val().rotate((0, 0, 0), (1, 2, 3), tilt_deg).translate(cq.Vector(*at))
+
+
+def thick_torus() -> cq.Workplane:
+    return cq.Workplane(cq.Solid.makeTorus(20, 8))
+
+
+@fixture(
+    "torus_with_pocket_on_seam",
+    "a torus with a pocket across its outer seam, away from the other: the seam's sides, in pieces, are part of the loop",
+    meshes=False,
+)
+def torus_with_pocket_on_seam():
+    return thick_torus().cut(cq.Workplane(pocket((28 * cos(2), 28 * sin(2), 0))))
+
+
+@fixture("torus_with_pockets_on_seams", "a torus with pockets across either seam", meshes=False)
+def torus_with_pockets_on_seams():
+    outer, inner = pocket((28 * cos(2), 28 * sin(2), 0)), pocket((20, 0, 8))
+    return thick_torus().cut(cq.Workplane(outer)).cut(cq.Workplane(inner))
 
 
 @fixture("torus_half_of_tube", "a torus cut at its equator: loops that wrap round the long way")

@@ -6,6 +6,7 @@ use glam::{DAffine3, DVec3};
 use trimloop_geom::{Curve, Direction, Interval, NurbsCurve, Surface};
 
 use super::curve::Piece;
+use super::plane_order::loops_in_plane;
 use super::reader::{Fault, Outcome, Parameters, Reader};
 use super::surface::Ground;
 use crate::hint::over;
@@ -66,6 +67,19 @@ impl BoundDraft {
         Ok(Self { entry, outer, pieces: cut_at_corners(pieces.into_iter().zip(turned)) })
     }
 
+    /// The loops of a boundary on a surface: one, but where its curves in the parameter plane form others.
+    fn loops(pieces: Vec<Piece>, entry: u32, outer: bool, surface: &Surface) -> Outcome<Vec<Self>> {
+        let Some(loops) = loops_in_plane(&pieces, surface) else {
+            return Self::new(pieces, entry, outer).map(|bound| vec![bound]);
+        };
+        let bound = |order: &Vec<(usize, bool)>| {
+            let pieces = order.iter().map(|&(piece, turned)| (pieces[piece].clone(), turned));
+            let pieces = cut_at_corners(pieces.filter(|(piece, _)| !is_point(piece)));
+            Self { entry, outer, pieces }
+        };
+        Ok(loops.iter().map(bound).filter(|bound| !bound.pieces.is_empty()).collect())
+    }
+
     /// The loop as it is, or run the other way where the normal that it runs around is not `same`.
     fn about(mut self, same: bool) -> Self {
         if !same {
@@ -96,13 +110,18 @@ impl FaceReader<'_> {
                 let told = parameters.integer()? != 0;
                 let inner = parameters.count(0)?;
                 let outer = parameters.pointer()?;
-                let has_outer = told && outer != 0;
                 let mut boundaries = Vec::new();
-                if has_outer {
+                if told && outer != 0 {
                     boundaries.push(outer);
                 }
                 for _ in 0..inner {
                     boundaries.push(parameters.pointer()?);
+                }
+                let named = boundaries.len();
+                boundaries.retain(|&boundary| !self.is_without_curves(boundary));
+                let mut has_outer = told && outer != 0;
+                if has_outer && boundaries.len() < named {
+                    has_outer = self.encloses(surface, &boundaries)?;
                 }
                 self.trimmed(surface, &boundaries, has_outer)
             }
@@ -166,7 +185,7 @@ impl FaceReader<'_> {
         for (k, &boundary) in boundaries.iter().enumerate() {
             let pieces = self.boundary(boundary, &ground, &exact)?;
             on_model &= pieces.iter().all(|piece| !matches!(piece.curve, Curve::OnSurface { .. }));
-            bounds.push(BoundDraft::new(pieces, boundary, has_outer && k == 0)?);
+            bounds.extend(BoundDraft::loops(pieces, boundary, has_outer && k == 0, &exact)?);
         }
         if has_pole {
             self.direct(&mut bounds, boundaries, &ground);
@@ -180,6 +199,36 @@ impl FaceReader<'_> {
             return Ok(FaceDraft { surface: Arc::new(surface), same_sense, bounds });
         }
         Ok(FaceDraft { surface: exact, same_sense: !ground.reversed, bounds })
+    }
+
+    /// Whether the first of a surface's boundaries is the outer one, though the file calls it an inner one, and names as
+    /// the outer one a boundary without curves, as OpenCASCADE does: it runs counter-clockwise, or the surface has no
+    /// sides that could be the outer boundary.
+    fn encloses(&self, surface: u32, boundaries: &[u32]) -> Outcome<bool> {
+        let Some(&first) = boundaries.first() else { return Ok(false) };
+        let mut area = 0.0;
+        for entry in self.plane_curves(first)? {
+            for piece in self.reader.parameter_curve(entry)? {
+                let points = (0..=16).map(|k| piece.curve.point(piece.range.at(f64::from(k) / 16.0)));
+                let points: Vec<DVec3> = points.collect();
+                area += points.windows(2).map(|pair| pair[0].cross(pair[1]).z).sum::<f64>();
+            }
+        }
+        Ok(area > 0.0 || self.reader.surface(surface)?.untrimmed().is_none())
+    }
+
+    /// Whether a boundary of type 142 names no curve.
+    fn is_without_curves(&self, boundary: u32) -> bool {
+        let named = || -> Outcome<bool> {
+            let mut parameters = self.reader.parameters(boundary)?;
+            let is_named = parameters.directory.entity_type != 142 || {
+                parameters.integer()?;
+                parameters.pointer()?;
+                parameters.pointer()? != 0 || parameters.pointer()? != 0
+            };
+            Ok(is_named)
+        };
+        named().is_ok_and(|is_named| !is_named)
     }
 
     /// The curves of a boundary (types 141 and 142), in the model or else on the surface.
@@ -342,10 +391,14 @@ impl FaceReader<'_> {
 
 /// A curve in the parameter plane over the range of the curve in the model that it stands for, if it runs with it.
 fn image_of(piece: &Piece, image: &Piece, surface: &Surface) -> Option<Arc<Curve>> {
-    let ends = [0.0, 1.0].map(|share| surface.point(image.curve.point(image.range.at(share)).truncate()));
-    let [start, end] = piece.ends();
-    let turned =
-        start.distance(ends[0]) > start.distance(ends[1]) && end.distance(ends[1]) > end.distance(ends[0]);
+    let there = |share: f64| surface.point(image.curve.point(image.range.at(share)).truncate());
+    let here = |share: f64| piece.curve.point(piece.range.at(share));
+    let runs_against = |from: f64, to: f64| {
+        let ([start, end], [first, last]) = ([from, to].map(here), [from, to].map(there));
+        start.distance(first) > start.distance(last) && end.distance(last) > end.distance(first)
+    };
+    // What closes on itself begins where it ends.
+    let turned = runs_against(0.0, 1.0) || is_closed(piece) && runs_against(0.25, 0.75);
     over(&image.curve, image.range, piece.range, turned).map(Arc::new)
 }
 
@@ -418,6 +471,12 @@ fn are_alike(a: &[Piece], b: &[Piece], reach: f64) -> bool {
         apart(false).min(apart(true)) <= reach || (ends(false).min(ends(true)) <= reach && middle() <= reach)
     };
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| near(a, b))
+}
+
+/// Whether a piece ends where it begins.
+fn is_closed(piece: &Piece) -> bool {
+    let [start, end] = piece.ends();
+    start.distance(end) <= 1e-6 * piece.curve.point(piece.range.at(0.5)).distance(start)
 }
 
 /// Whether a piece is all at one point.

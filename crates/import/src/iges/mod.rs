@@ -7,6 +7,7 @@ mod face;
 mod layout;
 mod look;
 mod outline;
+mod plane_order;
 mod primitive;
 mod reader;
 mod scene;
