@@ -87,7 +87,7 @@ fn edges_of<'p>(part: &'p Part, body: &'p Body) -> impl Iterator<Item = EdgeId> 
 /// Joins the pairs among `free`; gives how many edges went.
 fn sew_edges(part: &mut Part, body: usize, free: &[EdgeId], reach: f64) -> usize {
     let vertex = coincident_vertices(part, free, reach);
-    let root = |id: VertexId| vertex.get(&id).copied().unwrap_or(id);
+    let root = |id: VertexId| root(&vertex, id);
     let ends = |id: EdgeId| [part.edges[id as usize].start, part.edges[id as usize].end].map(root);
     let mut by_ends: FxHashMap<(VertexId, VertexId), Vec<EdgeId>> = FxHashMap::default();
     for &id in free {
@@ -202,30 +202,31 @@ fn pairs(part: &Part, faces: &FacesOfEdges, group: &[EdgeId], reach: f64) -> Vec
 }
 
 /// For the ends of free edges, the first vertex that lies at the same place; not for those of an edge that would shrink
-/// to nothing.
+/// to nothing. A vertex lies where it says and where the curves of its edges end, which in rough files is not the same.
 fn coincident_vertices(part: &Part, free: &[EdgeId], reach: f64) -> FxHashMap<VertexId, VertexId> {
-    let mut ends: Vec<VertexId> =
-        free.iter().flat_map(|&id| [part.edges[id as usize].start, part.edges[id as usize].end]).collect();
-    ends.sort_unstable();
-    ends.dedup();
+    let mut first: FxHashMap<VertexId, VertexId> = FxHashMap::default();
+    let mut grid: FxHashMap<[i64; 3], Vec<(VertexId, DVec3)>> = FxHashMap::default();
     let cell = |point: DVec3| (point / (8.0 * reach)).floor().to_array().map(|x| x as i64);
-    let mut grid: FxHashMap<[i64; 3], Vec<VertexId>> = FxHashMap::default();
-    let mut first = FxHashMap::default();
-    for id in ends {
-        let point = part.vertices[id as usize].point;
+    for (id, point) in places(part, free, reach) {
         let (low, high) = (cell(point - reach), cell(point + reach));
         let near = (low[0]..=high[0])
             .flat_map(|x| (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| [x, y, z])));
         let mut known = near.filter_map(|cell| grid.get(&cell)).flatten();
-        match known.find(|&&other| part.vertices[other as usize].point.distance(point) <= reach) {
-            Some(&other) => drop(first.insert(id, other)),
-            None => grid.entry(cell(point)).or_default().push(id),
+        match known.find(|(_, other)| other.distance(point) <= reach) {
+            Some(&(other, _)) => {
+                let (a, b) = (root(&first, id), root(&first, other));
+                if a != b {
+                    first.insert(a.max(b), a.min(b));
+                }
+            }
+            None => grid.entry(cell(point)).or_default().push((id, point)),
         }
     }
+    let settled: Vec<(VertexId, VertexId)> = first.keys().map(|&id| (id, root(&first, id))).collect();
+    first.extend(settled);
     for &id in free {
         let edge = &part.edges[id as usize];
-        let root = |id: VertexId| first.get(&id).copied().unwrap_or(id);
-        if edge.start == edge.end || root(edge.start) != root(edge.end) {
+        if edge.start == edge.end || root(&first, edge.start) != root(&first, edge.end) {
             continue;
         }
         let middle = edge.curve.point(edge.range.at(0.5));
@@ -235,6 +236,37 @@ fn coincident_vertices(part: &Part, free: &[EdgeId], reach: f64) -> FxHashMap<Ve
         }
     }
     first
+}
+
+/// Where vertices of edges lie, in their order, and then where curves end beyond `reach` of them.
+fn places(part: &Part, edges: &[EdgeId], reach: f64) -> Vec<(VertexId, DVec3)> {
+    let mut own: Vec<VertexId> = Vec::with_capacity(2 * edges.len());
+    let mut apart: Vec<(VertexId, DVec3)> = Vec::new();
+    for &id in edges {
+        let edge = &part.edges[id as usize];
+        let vertices = if edge.same_sense { [edge.start, edge.end] } else { [edge.end, edge.start] };
+        for (vertex, t) in vertices.into_iter().zip([edge.range.start, edge.range.end]) {
+            own.push(vertex);
+            let end = edge.curve.point(t);
+            if end.distance(part.vertices[vertex as usize].point) > reach {
+                apart.push((vertex, end));
+            }
+        }
+    }
+    own.sort_unstable();
+    own.dedup();
+    let mut out: Vec<(VertexId, DVec3)> =
+        own.into_iter().map(|id| (id, part.vertices[id as usize].point)).collect();
+    out.append(&mut apart);
+    out
+}
+
+/// The vertex that stands for another.
+fn root(first: &FxHashMap<VertexId, VertexId>, mut id: VertexId) -> VertexId {
+    while let Some(&next) = first.get(&id) {
+        id = next;
+    }
+    id
 }
 
 /// Whether two edges between the same vertices run along the same line.

@@ -261,6 +261,56 @@ fn what_stays_open_is_reported_with_its_gap() {
     assert!(diagnostic.message.contains("0.254 mm off"), "{}", diagnostic.message);
 }
 
+/// Where curves of one boundary end a twentieth of a millimetre apart, each still lies on its neighbour's.
+#[test]
+fn edges_are_sewn_by_where_their_curves_end() {
+    let mut deck = Deck::default();
+    // In inches: 0.002 are 0.05 mm.
+    let [p, b, late, c] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.002, 0.0, 0.0], [2.0, 0.0, 0.0]];
+    let mut face = |lines: &[[Point; 2]]| {
+        let plane = deck.add(108, "00010000", 0, "0.,0.,1.,0.,0,0.,0.,0.,0.");
+        let lines: Vec<String> =
+            lines.iter().map(|l| deck.add(110, "00010000", 0, &coordinates(l)).to_string()).collect();
+        let chain = deck.add(102, "00010000", 0, &format!("{},{}", lines.len(), lines.join(",")));
+        let boundary = deck.add(142, "00010000", 0, &format!("0,{plane},0,{chain},2"));
+        deck.add(144, "00000000", 0, &format!("{plane},1,0,{boundary}"));
+    };
+    let up = |[x, _, z]: Point| [x, 1.0, z];
+    let down = |[x, _, z]: Point| [x, -1.0, z];
+    face(&[[p, late], [b, c], [c, up(c)], [up(c), up(p)], [up(p), p]]);
+    face(&[[late, p], [p, down(p)], [down(p), down(late)], [down(late), late]]);
+    face(&[[c, b], [late, down(late)], [down(late), down(c)], [down(c), c]]);
+    let model = model(&deck);
+    let part = &model.parts[0];
+    let mut uses = vec![0; part.edges.len()];
+    let coedges = part.faces.iter().flat_map(|face| &face.loops).flat_map(|bound| &bound.coedges);
+    coedges.for_each(|coedge| uses[coedge.edge as usize] += 1);
+    assert_eq!(uses.iter().filter(|&&count| count == 2).count(), 3, "{uses:?}");
+    let counts: Vec<usize> = part.faces.iter().map(|face| face.loops[0].coedges.len()).collect();
+    assert_eq!(counts, [5, 4, 4], "nothing is cut");
+}
+
+/// A spline surface that is said to end a hair behind one of its knots ends at the knot.
+#[test]
+fn a_stated_range_ends_at_the_knot_that_it_means() {
+    let mut deck = Deck::default();
+    let points: Vec<Point> = (0..6).map(|k| [f64::from(k / 2), f64::from(k % 2), 0.0]).collect();
+    let spline = |end: &str| {
+        let head = "1,2,1,1,0,0,1,0,0,0.,0.,1.,1.,0.,0.,1.,2.,2.,1.,1.,1.,1.,1.,1.";
+        format!("{head},{},0.,1.,0.,{end}", coordinates(&points))
+    };
+    deck.add(128, "00000000", 0, &spline("1.0000000001"));
+    deck.add(128, "00000000", 0, &spline("1.01"));
+    let ends = |face: &trimloop_brep::Face| {
+        let FaceGeometry::Surface(surface) = &face.geometry else { panic!("a surface") };
+        let trimloop_geom::Surface::Nurbs(nurbs) = &**surface else { panic!("a spline") };
+        nurbs.distinct_knots(trimloop_geom::Direction::V)
+    };
+    let model = model(&deck);
+    let found: Vec<_> = model.parts.iter().flat_map(|part| &part.faces).map(ends).collect();
+    assert_eq!(found, [vec![0.0, 1.0], vec![0.0, 1.0, 1.01]]);
+}
+
 #[test]
 fn one_long_edge_meets_two_short_ones() {
     let mut deck = Deck::default();

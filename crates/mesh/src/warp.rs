@@ -70,6 +70,9 @@ const MAX_ASPECT_AT_POLES: f64 = 8.0;
 /// The same on free-form surfaces, where it also sets how far apart points lie.
 const FREE_FORM_ASPECT: f64 = 4.0;
 
+/// Parts of a range that are shorter than this part of it say nothing of the steps.
+const LEAST_CELL: f64 = 1e-8;
+
 impl Warp {
     /// The warp for `surface` over `low`..`high`; at most `max_points` line crossings.
     pub fn new(
@@ -161,8 +164,14 @@ fn stations(surface: &Surface, direction: Direction, range: Interval) -> Vec<f64
         out.extend((0..pieces).map(|i| piece.at(i as f64 / pieces as f64)));
     }
     out.push(range.end);
-    out.dedup();
-    if out.len() < 2 { vec![range.start, range.end] } else { out }
+    // Between knots that are the same but for their last digits, derivatives are noise.
+    out.dedup_by(|next, before| *next - *before <= LEAST_CELL * range.length());
+    if out.len() < 2 {
+        return vec![range.start, range.end];
+    }
+    out.pop();
+    out.push(range.end);
+    out
 }
 
 /// The steps of every cell in both directions: the least over the other direction.

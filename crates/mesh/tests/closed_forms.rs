@@ -7,7 +7,7 @@ use glam::DVec3;
 use trimloop_brep::{
     Body, BodyKind, Coedge, Edge, EntityRef, Face, FaceGeometry, Loop, Part, Shell, ShellFace, Vertex,
 };
-use trimloop_geom::{Curve, Frame, Interval, NurbsSurface, Surface};
+use trimloop_geom::{Curve, Direction, Frame, Interval, NurbsSurface, Surface};
 use trimloop_mesh::{FaceStatus, LinearDeflection, MeshOptions, PartMesh, Silent, mesh_part};
 
 /// Builds a part with one shell.
@@ -384,6 +384,54 @@ fn normals_that_flutter_along_a_border_are_not_followed() {
     assert_eq!(mesh.faces[0].status, FaceStatus::Exact);
     assert!((area(&mesh) / (20.0 * length) - 1.0).abs() < 1e-6, "{}", area(&mesh));
     assert!(mesh.faces[0].triangles.len() < 1000, "{}", mesh.faces[0].triangles.len());
+}
+
+/// A ruled sheet whose last knots differ in their last digits only: what lies between them is a hair's breadth, in which
+/// control points give derivatives that are nothing but noise.
+#[test]
+fn knots_that_differ_in_their_last_digits_do_not_count_as_curvature() {
+    const DEGREE: usize = 10;
+    let ends = [2.794261401, 23.763765849, 25.267563695, 26.114756964];
+    let times = [DEGREE + 1, DEGREE - 1, DEGREE - 1, DEGREE + 1];
+    let knots: Vec<f64> = ends.iter().zip(times).flat_map(|(&k, n)| std::iter::repeat_n(k, n)).collect();
+    let columns = knots.len() - DEGREE - 1;
+    let row = |radius: f64, z: f64| {
+        let knots = &knots;
+        (0..columns).map(move |k| {
+            let angle = 0.1 * knots[k + 1..=k + DEGREE].iter().sum::<f64>() / DEGREE as f64;
+            DVec3::new(radius * angle.cos(), radius * angle.sin(), z)
+        })
+    };
+    let points = row(8.0, 0.0).chain(row(7.0, 3.0)).collect();
+    let across = vec![0.0, 0.0, 22.473302294, 22.473302294];
+    let sheet = NurbsSurface::new([1, DEGREE], 2, columns, points, Vec::new(), [across, knots.clone()]);
+    let sheet = sheet.expect("a sheet");
+    let area_of = |end: f64| {
+        let part = sheet
+            .restricted([Interval::new(0.0, 22.473302294), Interval::new(ends[0], end)])
+            .expect("a part");
+        let mut builder = Builder::default();
+        let [u, v] = part.domain();
+        let corners = [(u.start, v.start), (u.end, v.start), (u.end, v.end), (u.start, v.end)]
+            .map(|(u, v)| builder.vertex(part.point(glam::DVec2::new(u, v))));
+        let isocurve = |constant, at| part.isocurve(constant, at).expect("a side");
+        let sides = [
+            (isocurve(Direction::V, v.start), [0, 1], false),
+            (isocurve(Direction::U, u.end), [1, 2], false),
+            (isocurve(Direction::V, v.end), [3, 2], true),
+            (isocurve(Direction::U, u.start), [0, 3], true),
+        ];
+        let sides = sides.map(|(curve, [from, to], reversed)| {
+            let range = curve.domain();
+            (builder.edge(corners[from], corners[to], Curve::Nurbs(curve), range), reversed)
+        });
+        builder.face(Surface::Nurbs(part), true, &[&sides]);
+        let mesh = builder.mesh(false, 0.01);
+        assert_eq!(mesh.faces[0].status, FaceStatus::Exact);
+        area(&mesh)
+    };
+    let (at_knot, beside) = (area_of(ends[2]), area_of(ends[2] + 1e-9));
+    assert!((beside / at_knot - 1.0).abs() < 1e-3, "{beside} beside {at_knot}");
 }
 
 /// A polygon that runs out to a point and back over itself, past its own corner.

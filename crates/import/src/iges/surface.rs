@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
 use trimloop_geom::{
-    CompositeCurve, CompositeSegment, Curve, Frame, Interval, NurbsCurve, NurbsSurface, Surface,
+    CompositeCurve, CompositeSegment, Curve, Direction, Frame, Interval, NurbsCurve, NurbsSurface, Surface,
 };
 
 use super::curve::{Piece, bezier_knots, joined};
@@ -443,7 +443,8 @@ fn rational_spline(parameters: &mut Parameters<'_>) -> Outcome<Surface> {
     let told = parameters.reals(4).ok();
     let domain = surface.domain();
     let restricted = told.and_then(|told| {
-        let part = [Interval::new(told[0], told[1]), Interval::new(told[2], told[3])];
+        let [u, v] = [Direction::U, Direction::V].map(|direction| surface.distinct_knots(direction));
+        let part = [told_range(told[0], told[1], &u), told_range(told[2], told[3], &v)];
         let inside = (0..2).all(|k| {
             let slack = 1e-9 * domain[k].length();
             part[k].start >= domain[k].start - slack
@@ -454,6 +455,13 @@ fn rational_spline(parameters: &mut Parameters<'_>) -> Outcome<Surface> {
         (inside && smaller).then(|| surface.restricted(part).ok()).flatten()
     });
     Ok(Surface::Nurbs(restricted.unwrap_or(surface)))
+}
+
+/// A range that a file states, with its ends at knots that they differ from in the last digits only.
+fn told_range(start: f64, end: f64, knots: &[f64]) -> Interval {
+    let slack = 1e-9 * (knots[knots.len() - 1] - knots[0]);
+    let at = |told: f64| knots.iter().copied().find(|knot| (knot - told).abs() <= slack).unwrap_or(told);
+    Interval::new(at(start), at(end))
 }
 
 /// Type 114: bicubic patches in power form.
