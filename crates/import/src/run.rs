@@ -14,7 +14,8 @@ pub(crate) fn turned(curves: &[[DVec3; 3]]) -> Vec<bool> {
     let nearest = |from: DVec3, [start, _, end]: &[DVec3; 3]| from.distance(*start).min(from.distance(*end));
     let first = &curves[0];
     // Where both of the first one's ends touch the second, it runs as it is written.
-    out[0] = nearest(first[2], &curves[1]) > nearest(first[0], &curves[1]) + slack(first);
+    let touching = slack(first).max(1e-3 * first[0].distance(first[2]));
+    out[0] = nearest(first[2], &curves[1]) > nearest(first[0], &curves[1]) + touching;
     let mut at = first[if out[0] { 0 } else { 2 }];
     for (curve, turned) in curves.iter().zip(&mut out).skip(1) {
         let [start, _, end] = *curve;
@@ -38,6 +39,15 @@ mod tests {
         let [a, b, c] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
         assert_eq!(turned(&[line(a, b), line(b, c), line(c, a)]), [false; 3]);
         assert_eq!(turned(&[line(b, a), line(b, c), line(a, c)]), [true, false, true]);
+    }
+
+    /// Two curves of a lens, whose ends are a few digits apart.
+    #[test]
+    fn the_first_of_two_runs_as_it_is_written() {
+        let [a, b] = [[0.0, 0.0, 0.0], [6.0, 0.0, 0.0]];
+        let [late, early] = [[6.0, 5e-6, 0.0], [0.0, 1e-7, 0.0]];
+        assert_eq!(turned(&[line(a, b), line(late, early)]), [false; 2]);
+        assert_eq!(turned(&[line(a, b), line(early, late)]), [false, true]);
     }
 
     /// A circle's end is nearer to the seam than its start is, by rounding.
