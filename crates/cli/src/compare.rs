@@ -11,7 +11,6 @@ use trimloop_compare::{
 use crate::arguments::CompareArguments;
 use crate::compare_text;
 use crate::contained::contained;
-use crate::convert::start_threads;
 use crate::draft::{self, Draft};
 use crate::interrupt;
 use crate::manual;
@@ -19,11 +18,12 @@ use crate::message;
 use crate::outcome::Outcome;
 use crate::progress::Progress;
 use crate::side::{self, FileReport};
+use crate::threads;
 
 /// Compares A with B.
 pub fn run(arguments: &CompareArguments) -> anyhow::Result<Outcome> {
     interrupt::listen()?;
-    start_threads(arguments.jobs)?;
+    threads::start(arguments.jobs)?;
     match contained(|| held_against(arguments)) {
         Ok(outcome) => Ok(outcome),
         Err(_) if interrupt::requested() => Ok(Outcome::Cancelled),

@@ -21,13 +21,14 @@ use crate::progress::Progress;
 use crate::report::{self, DiagnosticReport, Report, Seconds};
 use crate::report_sink::ReportSink;
 use crate::summary;
+use crate::threads;
 
 /// Converts every input; the worst outcome is that of the run.
 pub fn run(arguments: &ConvertArguments) -> anyhow::Result<Outcome> {
     let jobs = plan::jobs(&arguments.inputs, arguments.output.as_deref())?;
     let mut reports = ReportSink::open(arguments.report.as_deref(), &jobs)?;
     interrupt::listen()?;
-    start_threads(arguments.jobs)?;
+    threads::start(arguments.jobs)?;
     let mut worst = Outcome::Good;
     for job in &jobs {
         // On a worker: a main thread would only wait for them, and wake them up again and again.
@@ -155,15 +156,6 @@ impl Clock {
         let last = std::mem::replace(&mut self.0, Instant::now());
         Ok((self.0 - last).as_secs_f64())
     }
-}
-
-/// Starts the workers; their stacks are as large as the main thread's usually is.
-pub fn start_threads(jobs: usize) -> anyhow::Result<()> {
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(jobs)
-        .stack_size(8 << 20)
-        .build_global()
-        .context("cannot start the worker threads")
 }
 
 #[cfg(test)]

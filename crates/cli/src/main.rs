@@ -24,6 +24,7 @@ mod report_sink;
 mod side;
 mod summary;
 mod tally;
+mod threads;
 mod view;
 
 use std::process::ExitCode;

@@ -16,13 +16,13 @@ use trimloop_mesh::{LinearDeflection, Monitor};
 use crate::arguments::{MeshUnit, MeshUp, RegressArguments};
 use crate::compare::Held;
 use crate::contained::contained;
-use crate::convert::start_threads;
 use crate::draft::{self, Draft};
 use crate::interrupt;
 use crate::manual;
 use crate::message;
 use crate::outcome::Outcome;
 use crate::progress::Progress;
+use crate::threads;
 use crate::{quantity, regress_text, side};
 
 /// Gates as the command line has them.
@@ -56,7 +56,7 @@ pub fn run(arguments: &RegressArguments) -> anyhow::Result<Outcome> {
         bail!("--bless is for people who have looked at the report: it does nothing where CI is set");
     }
     interrupt::listen()?;
-    start_threads(arguments.jobs)?;
+    threads::start(arguments.jobs)?;
     let suite = Suite::read(&arguments.suite, arguments.gates.gates(), &AsTyped)?;
     let cases: Vec<&Case> = suite.cases.iter().filter(|case| arguments.chooses(case)).collect();
     if cases.is_empty() {

@@ -15,10 +15,10 @@ use trimloop_render::{
 
 use crate::arguments::{Edges, RenderArguments, Up};
 use crate::contained::contained;
-use crate::convert::start_threads;
 use crate::draft::{self, Draft};
 use crate::outcome::Outcome;
 use crate::progress::Progress;
+use crate::threads;
 use crate::{interrupt, manual, message, plan};
 
 /// The picture's height as an angle.
@@ -29,7 +29,7 @@ const SHEET_SIZE: [u32; 2] = [320, 240];
 /// Draws every input; the worst outcome is that of the run.
 pub fn run(arguments: &RenderArguments) -> anyhow::Result<Outcome> {
     interrupt::listen()?;
-    start_threads(arguments.jobs)?;
+    threads::start(arguments.jobs)?;
     if arguments.pick.is_some() && arguments.inputs.len() > 1 {
         bail!("--pick asks about one input");
     }
