@@ -30,7 +30,7 @@ SOURCE = "OpenCASCADE 7.9.3 (cadquery 2.8.0), exact surfaces of the model in mem
 #: The models, by their names in `cadquery/`.
 MODELS = """
 assembly_flat assembly_nested bottle box box_filleted bracket bspline_degree_3 bspline_rational capsule
-colour_per_face cone_cut_in_hyperbola cone_with_apex cylinder cylinder_with_cross_hole
+colour_per_face cone_cut_in_hyperbola cone_with_apex cylinder cylinder_cut_askew cylinder_with_cross_hole
 cylinder_with_hole_across_seam ellipsoid frustum hollow_ball lens loft_airfoil loft_circle_to_square
 offset_surface paraboloid pipe_tee plate_perforated ring several_solids sheet_open_shell shell_thin
 solid_sheet_and_wire sphere sphere_segment sphere_with_hole_off_axis spline_closed_extruded spline_hill_drilled

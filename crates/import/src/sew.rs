@@ -270,7 +270,7 @@ fn root(first: &FxHashMap<VertexId, VertexId>, mut id: VertexId) -> VertexId {
 }
 
 /// Whether two edges between the same vertices run along the same line.
-fn coincide(a: &Edge, b: &Edge, reach: f64) -> bool {
+pub(crate) fn coincide(a: &Edge, b: &Edge, reach: f64) -> bool {
     let at = |edge: &Edge, share: f64| edge.curve.point(edge.range.at(share));
     let (a, b, shares) = match [stations(a), stations(b)] {
         [ours, theirs] if ours.len() >= theirs.len() => (a, b, ours),
@@ -374,7 +374,7 @@ pub(crate) fn share_at(edge: &Edge, mut t: f64) -> Option<f64> {
 }
 
 /// Whether two closed edges run around in opposite directions.
-fn turns_back(a: &Edge, b: &Edge) -> bool {
+pub(crate) fn turns_back(a: &Edge, b: &Edge) -> bool {
     let t = a.range.at(0.5);
     let along_a = a.curve.derivatives(t)[1];
     let foot = b.curve.project(a.curve.point(t), None);

@@ -19,6 +19,16 @@ def cone() -> cq.Workplane:
     return cq.Workplane(cq.Solid.makeCone(10, 0, 25))
 
 
+@fixture(
+    "cylinder_cut_askew",
+    "a cylinder cut askew: a whole ellipse that begins at the seam, which is at neither of its axes",
+    closed_form={"area_mm2": 400 * pi + 100 * pi + 100 * pi * sqrt(1 + 0.3**2 + 0.4**2), "volume_mm3": 2000 * pi},
+    meshes=False,
+)
+def cylinder_cut_askew():
+    return cq.Workplane().circle(10).extrude(40).cut(half_space((0, 0, 20), (0.3, 0.4, 1)))
+
+
 @fixture("cone_cut_in_ellipse", "a cone cut askew: an elliptic edge")
 def cone_cut_in_ellipse():
     return cone().cut(half_space((0, 0, 12), (0.3, 0, 1)))

@@ -1,18 +1,19 @@
 //! Loose faces sewn into bodies.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use trimloop_brep::{
-    Body, BodyKind, Diagnostic, Edge, EdgeId, EntityRef, Face, FaceGeometry, FaceId, Part, Severity, Shell,
-    ShellFace,
+    Body, BodyKind, Coedge, Diagnostic, Edge, EdgeId, EntityRef, Face, FaceGeometry, FaceId, Part, Severity,
+    Shell, ShellFace,
 };
-use trimloop_geom::Surface;
+use trimloop_geom::{Curve, Interval, Surface};
 
 use super::look::levels_of;
 use super::shape::ShapeBuilder;
-use crate::sew::{free_edges, reaches_mm, sew_body};
+use crate::sew::{coincide, free_edges, reaches_mm, sew_body, turns_back};
 use crate::split::split_edges;
 
 /// The least and the most that edges may lie apart to be one, millimetres, whatever the file states.
@@ -27,6 +28,8 @@ impl ShapeBuilder<'_> {
             return;
         }
         sew(&mut self.part, &loose);
+        let told = std::mem::take(&mut self.told);
+        sew_told(&mut self.part, &loose, &told);
         let mut uses = vec![0u32; self.part.edges.len()];
         let all_open = free_edges(&self.part, &body(loose.clone()), &mut uses);
         let samples = SampledEdges::new(&self.part, &all_open);
@@ -77,6 +80,40 @@ fn sew(part: &mut Part, faces: &[FaceId]) {
         sew_body(part, index, &reaches);
     }
     part.bodies.pop();
+}
+
+/// Makes faces share rings that lie apart, but are the same by what the file gives for one of them in the model:
+/// OpenCASCADE turns whole ellipses in their planes where it writes them, and has them right in the parameters of the
+/// surfaces that have any.
+fn sew_told(part: &mut Part, faces: &[FaceId], told: &[(EdgeId, Arc<(Curve, Interval)>)]) {
+    if told.is_empty() {
+        return;
+    }
+    let mut uses = vec![0u32; part.edges.len()];
+    let mut free = free_edges(part, &body(faces.to_vec()), &mut uses);
+    free.retain(|&id| part.edges[id as usize].start == part.edges[id as usize].end);
+    let mut replaced: FxHashMap<EdgeId, (EdgeId, bool)> = FxHashMap::default();
+    for (id, told) in told.iter().filter(|(id, _)| free.contains(id)) {
+        let edge = &part.edges[*id as usize];
+        let elsewhere = Edge { curve: Arc::new(told.0.clone()), range: told.1, ..edge.clone() };
+        let is_it = |&&other: &&EdgeId| {
+            other != *id
+                && !replaced.contains_key(&other)
+                && coincide(&part.edges[other as usize], &elsewhere, LEAST_REACH_MM)
+        };
+        if let Some(&other) = free.iter().find(is_it) {
+            let turned = turns_back(&part.edges[other as usize], &elsewhere) != turns_back(&elsewhere, edge);
+            replaced.insert(other, (*id, turned));
+        }
+    }
+    for &face in faces {
+        let coedges = part.faces[face as usize].loops.iter_mut().flat_map(|bound| &mut bound.coedges);
+        for coedge in coedges {
+            if let Some(&(edge, turned)) = replaced.get(&coedge.edge) {
+                *coedge = Coedge { edge, reversed: coedge.reversed != turned, pcurve: None };
+            }
+        }
+    }
 }
 
 fn body(faces: Vec<FaceId>) -> Body {

@@ -17,6 +17,8 @@ pub(crate) struct Piece {
     pub range: Interval,
     /// The same over the same range in the parameters of a surface that the curve lies on, as far as is known.
     pub image: Option<Arc<Curve>>,
+    /// What the file gives for it in the model, where that lies elsewhere and the image is what counts.
+    pub told: Option<Arc<(Curve, Interval)>>,
 }
 
 /// Types of entities that are curves.
@@ -25,12 +27,13 @@ pub(crate) const CURVES: [i32; 8] = [100, 102, 104, 106, 110, 112, 126, 130];
 impl Piece {
     /// A curve over a range.
     pub fn new(curve: Curve, range: Interval) -> Self {
-        Self { curve, range, image: None }
+        Self { curve, range, image: None, told: None }
     }
 
     /// The piece moved, as its surface is.
     pub fn placed(&self, map: &DAffine3) -> Self {
-        Self { curve: self.curve.transformed(map), range: self.range, image: self.image.clone() }
+        let told = self.told.as_ref().map(|told| Arc::new((told.0.transformed(map), told.1)));
+        Self { curve: self.curve.transformed(map), range: self.range, image: self.image.clone(), told }
     }
 
     /// The piece run the other way.

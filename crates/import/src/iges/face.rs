@@ -367,14 +367,20 @@ impl FaceReader<'_> {
         let on_surface = |Piece { curve, range, .. }: Piece| {
             let pcurve = Arc::new(curve);
             let image = Some(pcurve.clone());
-            Piece { curve: Curve::OnSurface { surface: surface.clone(), pcurve }, range, image }
+            Piece { image, ..Piece::new(Curve::OnSurface { surface: surface.clone(), pcurve }, range) }
         };
-        let out: Vec<Piece> = images.into_iter().map(on_surface).collect();
+        let mut out: Vec<Piece> = images.into_iter().map(on_surface).collect();
+        let Ok(pieces) = model else { return Ok(out) };
         // Where both say the same, the curve in the model is the one that neighbours have too.
-        match &model {
-            Ok(pieces) if prefers_plane && are_alike(pieces, &out, reach) => model,
-            _ => Ok(out),
+        if prefers_plane && are_alike(&pieces, &out, reach) {
+            return Ok(pieces);
         }
+        if pieces.len() == out.len() {
+            for (piece, told) in out.iter_mut().zip(pieces) {
+                piece.told = Some(Arc::new((told.curve, told.range)));
+            }
+        }
+        Ok(out)
     }
 
     /// Curves in the parameter plane, in the parameters that the surface has here.
@@ -421,10 +427,10 @@ fn natural_bound(surface: &Arc<Surface>, domain: [Interval; 2], entry: u32) -> O
         if let Surface::Nurbs(nurbs) = &**surface {
             let curve = nurbs.isocurve(constant, at_value).ok()?;
             let range = curve.domain();
-            return Some((Piece { curve: Curve::Nurbs(curve), range, image }, turned));
+            return Some((Piece { image, ..Piece::new(Curve::Nurbs(curve), range) }, turned));
         }
         let curve = Curve::OnSurface { surface: surface.clone(), pcurve };
-        Some((Piece { curve, range, image }, turned))
+        Some((Piece { image, ..Piece::new(curve, range) }, turned))
     };
     let sides = [
         side(Direction::V, v.start, false)?,

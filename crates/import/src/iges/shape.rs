@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use trimloop_brep::{
-    Body, Coedge, Diagnostics, Edge, EntityRef, Face, FaceGeometry, FaceId, FreeCurve, FreePoint, Loop, Part,
-    Rgba, Severity, Vertex, VertexId,
+    Body, Coedge, Diagnostics, Edge, EdgeId, EntityRef, Face, FaceGeometry, FaceId, FreeCurve, FreePoint,
+    Loop, Part, Rgba, Severity, Vertex, VertexId,
 };
+use trimloop_geom::{Curve, Interval};
 
 use super::curve::Piece;
 use super::face::{BoundDraft, FaceDraft};
@@ -25,6 +26,8 @@ pub(crate) struct ShapeBuilder<'f> {
     pub loose_edges: SharedEdges,
     /// The faces that came one by one.
     pub loose: Vec<FaceId>,
+    /// Edges that the file also gives as curves that lie elsewhere.
+    pub told: Vec<(EdgeId, Arc<(Curve, Interval)>)>,
     /// The group that is being filled.
     pub group: usize,
     /// The groups of faces, bodies, curves and points.
@@ -44,6 +47,7 @@ impl<'f> ShapeBuilder<'f> {
             lists: Lists::default(),
             loose_edges: SharedEdges::default(),
             loose: Vec::new(),
+            told: Vec::new(),
             group: 0,
             face_groups: Vec::new(),
             body_groups: Vec::new(),
@@ -119,9 +123,11 @@ impl<'f> ShapeBuilder<'f> {
 
     /// Adds an edge that runs with its curve.
     pub fn edge(&mut self, entity: EntityRef, piece: Piece, start: VertexId, end: VertexId) -> u32 {
-        let Piece { curve, range, .. } = piece;
+        let Piece { curve, range, told, .. } = piece;
         self.part.edges.push(Edge { entity, start, end, curve: Arc::new(curve), range, same_sense: true });
-        (self.part.edges.len() - 1) as u32
+        let edge = (self.part.edges.len() - 1) as EdgeId;
+        self.told.extend(told.map(|told| (edge, told)));
+        edge
     }
 
     /// Adds a vertex.

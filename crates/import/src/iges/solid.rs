@@ -3,13 +3,13 @@
 use std::collections::hash_map::Entry;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 use trimloop_brep::{
-    Body, BodyKind, Coedge, Edge, EntityRef, FaceGeometry, FaceId, Loop, Rgba, Severity, Shell, ShellFace,
-    VertexId,
+    Body, BodyKind, Coedge, Edge, EdgeId, EntityRef, FaceGeometry, FaceId, Loop, Rgba, Severity, Shell,
+    ShellFace, VertexId,
 };
-use trimloop_geom::Surface;
+use trimloop_geom::{Curve, Surface};
 
 use super::curve::{Piece, joined};
 use super::look::{color_of, levels_of, name_of};
@@ -17,6 +17,19 @@ use super::reader::{Fault, Outcome, Reader};
 use super::shape::ShapeBuilder;
 use crate::parallel::map_each;
 use crate::sew::free_edges;
+
+/// An edge whose curve ends away from its vertices.
+#[derive(Clone, Copy)]
+struct Astray {
+    edge: EdgeId,
+    /// Whether the loop runs along it.
+    agrees: bool,
+    /// Its curve in the parameters of the loop's surface.
+    image: u32,
+}
+
+/// Curves that end farther from their vertices than this are looked for in the parameters of a surface.
+const LEAST_ASTRAY_MM: f64 = 1e-2;
 
 impl ShapeBuilder<'_> {
     /// Adds a solid (type 186) with its voids, or a shell of its own (type 514).
@@ -140,15 +153,25 @@ impl ShapeBuilder<'_> {
         let count = parameters.count(1)?;
         let has_outer = parameters.integer()? != 0;
         let mut loops = Vec::with_capacity(count);
+        let mut astray = Vec::new();
         for k in 0..count {
             let bound = parameters.pointer()?;
-            loops.push(self.edge_loop(bound, has_outer && k == 0, shared)?);
+            loops.push(self.edge_loop(bound, has_outer && k == 0, shared, &mut astray)?);
+        }
+        if !astray.is_empty() {
+            self.mend(entry, &astray)?;
         }
         Ok((FaceGeometry::Surface(Arc::new(surface)), same_sense, loops))
     }
 
-    /// Type 508.
-    fn edge_loop(&mut self, entry: u32, outer: bool, shared: &mut SharedEdges) -> Outcome<Loop> {
+    /// Type 508. Edges that end away from their vertices are listed in `astray`.
+    fn edge_loop(
+        &mut self,
+        entry: u32,
+        outer: bool,
+        shared: &mut SharedEdges,
+        astray: &mut Vec<Astray>,
+    ) -> Outcome<Loop> {
         let mut parameters = self.reader.parameters(entry)?;
         parameters.expect(&[508], "loop")?;
         let mut bound = Loop { entity: EntityRef::Iges(entry), outer, ..Loop::default() };
@@ -156,9 +179,10 @@ impl ShapeBuilder<'_> {
             let is_vertex = parameters.integer()? == 1;
             let (list, index) = (parameters.pointer()?, parameters.integer()?);
             let agrees = parameters.integer()? != 0;
+            let mut images = Vec::new();
             for _ in 0..parameters.count(2)? {
                 parameters.integer()?;
-                parameters.pointer()?;
+                images.push(parameters.pointer()?);
             }
             let number = u32::try_from(index).ok().filter(|number| *number > 0);
             let number = number.ok_or_else(|| parameters.fault("names an edge by a number that is none"))?;
@@ -166,6 +190,11 @@ impl ShapeBuilder<'_> {
                 bound.vertex = Some(self.listed_vertex(list, number, shared)?);
             } else {
                 let edge = self.listed_edge(list, number as usize - 1, shared)?;
+                if let [image] = images[..]
+                    && self.astray_mm(&self.part.edges[edge as usize]) > LEAST_ASTRAY_MM
+                {
+                    astray.push(Astray { edge, agrees, image });
+                }
                 bound.coedges.push(Coedge { edge, reversed: !agrees, pcurve: None });
             }
         }
@@ -173,6 +202,51 @@ impl ShapeBuilder<'_> {
             bound.vertex = None;
         }
         Ok(bound)
+    }
+
+    /// How far an edge's curve ends from its vertices, millimetres.
+    fn astray_mm(&self, edge: &Edge) -> f64 {
+        let vertices = if edge.same_sense { [edge.start, edge.end] } else { [edge.end, edge.start] };
+        let ends = [edge.range.start, edge.range.end].map(|t| edge.curve.point(t));
+        let apart = |k: usize| self.part.vertices[vertices[k] as usize].point.distance(ends[k]);
+        apart(0).max(apart(1))
+    }
+
+    /// Gives edges of a face (type 510) that end away from their vertices the curves that they have in the parameters of
+    /// its surface, where those end at the vertices: OpenCASCADE turns whole ellipses in their planes where it writes
+    /// them, and has them right in parameters.
+    fn mend(&mut self, face: u32, astray: &[Astray]) -> Outcome<()> {
+        let ground = self.reader.surface(self.reader.parameters(face)?.pointer()?)?;
+        let surface = Arc::new(ground.surface);
+        let mut maps = vec![ground.parameters];
+        if let Surface::Cone { half_angle_rad, .. } = *surface {
+            // It counts lengths on cones along their sides, not along their axes.
+            maps.push(DAffine3::from_scale(DVec3::new(1.0, half_angle_rad.cos(), 1.0)) * ground.parameters);
+        }
+        for &Astray { edge: id, agrees, image } in astray {
+            let edge = &self.part.edges[id as usize];
+            let Ok([image]) = <[Piece; 1]>::try_from(self.reader.parameter_curve(image)?) else { continue };
+            let mended = maps.iter().map(|map| {
+                let pcurve = Arc::new(image.curve.transformed(map));
+                let curve = Arc::new(Curve::OnSurface { surface: surface.clone(), pcurve });
+                let mut mended = Edge { curve, range: image.range, same_sense: true, ..edge.clone() };
+                mended.same_sense = if edge.start == edge.end {
+                    // In parameters curves run as the loop does.
+                    agrees
+                } else {
+                    let [start, end] = [edge.start, edge.end].map(|id| self.part.vertices[id as usize].point);
+                    let first = mended.curve.point(mended.range.start);
+                    first.distance(start) <= first.distance(end)
+                };
+                mended
+            });
+            let best = mended.min_by(|a, b| self.astray_mm(a).total_cmp(&self.astray_mm(b)));
+            let best = best.filter(|mended| self.astray_mm(mended) < 0.1 * self.astray_mm(edge));
+            if let Some(mended) = best {
+                self.part.edges[id as usize] = mended;
+            }
+        }
+        Ok(())
     }
 
     /// An edge of a list (type 504).
