@@ -401,6 +401,21 @@ fn a_bounded_plane_bounds_what_is_cut_out_of_it() {
     assert_eq!(face.loops.iter().map(|bound| bound.outer).collect::<Vec<_>>(), [true, false]);
 }
 
+/// A scale by which all would lie at infinity is none.
+#[test]
+fn a_scale_that_cannot_be_is_taken_for_one() {
+    let text = cube([0; 6]).text();
+    for scale in ["1.E-300", "1.E300", "-3.", "0."] {
+        let text = text.replace(",1.,1,2HIN", &format!(",{scale},1,2HIN"));
+        let file = IgesFile::parse(text.as_bytes()).expect("a file");
+        let model = import_iges(&file).expect("a model");
+        let far = model.parts[0].vertices.iter().map(|vertex| vertex.point.max_element());
+        assert!((far.fold(0.0, f64::max) - 25.4).abs() < 1e-12, "{scale}");
+        let told = model.diagnostics.iter().any(|d| d.message.contains("scale of model space"));
+        assert_eq!(told, scale.contains('E'), "{scale}");
+    }
+}
+
 /// Six digits of two pi: the tube closes.
 #[test]
 fn a_turn_of_six_digits_is_a_whole_one() {

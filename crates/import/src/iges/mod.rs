@@ -64,7 +64,13 @@ fn unit_mm(file: &IgesFile, diagnostics: &mut Diagnostics) -> f64 {
         diagnostics.push(Diagnostic::new(Severity::Warning, "unknown-unit", EntityRef::None, message));
         1.0
     });
-    unit / global.scale
+    let scaled = unit / global.scale;
+    if (1e-30..1e30).contains(&scaled) {
+        return scaled;
+    }
+    let message = format!("The scale of model space, {:e}, is none that can be; taken for 1.", global.scale);
+    diagnostics.push(Diagnostic::new(Severity::Warning, "unknown-unit", EntityRef::None, message));
+    unit
 }
 
 fn name_of(file: &IgesFile) -> String {

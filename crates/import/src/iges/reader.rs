@@ -178,7 +178,7 @@ impl<'f> Parameters<'f> {
 
     /// A real that may be left out.
     pub fn optional_real(&mut self) -> Option<f64> {
-        self.next().real().filter(|value| value.is_finite())
+        self.next().real().filter(|value| value.abs() < 1e100)
     }
 
     /// An integer; 0 where it is left out.
