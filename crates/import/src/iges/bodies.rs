@@ -90,18 +90,22 @@ fn sew_told(part: &mut Part, faces: &[FaceId], told: &[(EdgeId, Arc<(Curve, Inte
         return;
     }
     let mut uses = vec![0u32; part.edges.len()];
-    let mut free = free_edges(part, &body(faces.to_vec()), &mut uses);
-    free.retain(|&id| part.edges[id as usize].start == part.edges[id as usize].end);
+    let free = free_edges(part, &body(faces.to_vec()), &mut uses);
+    let is_ring = |id: &EdgeId| part.edges[*id as usize].start == part.edges[*id as usize].end;
+    let rings: FxHashMap<EdgeId, (DVec3, f64)> =
+        free.into_iter().filter(is_ring).map(|id| (id, middle_of(&part.edges[id as usize]))).collect();
     let mut replaced: FxHashMap<EdgeId, (EdgeId, bool)> = FxHashMap::default();
-    for (id, told) in told.iter().filter(|(id, _)| free.contains(id)) {
+    for (id, told) in told.iter().filter(|(id, _)| rings.contains_key(id)) {
         let edge = &part.edges[*id as usize];
         let elsewhere = Edge { curve: Arc::new(told.0.clone()), range: told.1, ..edge.clone() };
-        let is_it = |&&other: &&EdgeId| {
+        let (middle, radius) = middle_of(&elsewhere);
+        let is_it = |&(&other, at): &(&EdgeId, &(DVec3, f64))| {
             other != *id
+                && at.0.distance(middle) <= 0.1 * radius
                 && !replaced.contains_key(&other)
                 && coincide(&part.edges[other as usize], &elsewhere, LEAST_REACH_MM)
         };
-        if let Some(&other) = free.iter().find(is_it) {
+        if let Some((&other, _)) = rings.iter().filter(is_it).min_by_key(|(id, _)| **id) {
             let turned = turns_back(&part.edges[other as usize], &elsewhere) != turns_back(&elsewhere, edge);
             replaced.insert(other, (*id, turned));
         }
@@ -114,6 +118,13 @@ fn sew_told(part: &mut Part, faces: &[FaceId], told: &[(EdgeId, Arc<(Curve, Inte
             }
         }
     }
+}
+
+/// About the middle of a ring, and how far from there it runs.
+fn middle_of(ring: &Edge) -> (DVec3, f64) {
+    let points = [0.0, 0.25, 0.5, 0.75].map(|share| ring.curve.point(ring.range.at(share)));
+    let middle = points.iter().sum::<DVec3>() / 4.0;
+    (middle, points.iter().map(|point| point.distance(middle)).fold(0.0, f64::max))
 }
 
 fn body(faces: Vec<FaceId>) -> Body {
