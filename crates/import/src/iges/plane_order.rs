@@ -10,39 +10,41 @@ use super::curve::Piece;
 /// Ends of curves in the parameter plane are the same within this part of all ends' extent.
 const REACH: f64 = 1e-5;
 
+/// Boundaries of more pieces are left as they are.
+const MOST_PIECES: usize = 10_000;
+
 /// The loops that pieces form by their images on a surface that closes on itself: per loop its pieces in order, and
 /// whether each is run backwards. `None` where they follow one another as they stand, or do not close.
 pub(crate) fn loops_in_plane(pieces: &[Piece], surface: &Surface) -> Option<Vec<Vec<(usize, bool)>>> {
-    if surface.periods() == [None, None] {
+    if surface.periods() == [None, None] || pieces.len() > MOST_PIECES {
         return None;
     }
     let ends = pieces.iter().map(image_ends).collect::<Option<Vec<[DVec2; 2]>>>()?;
     let all = || ends.iter().flatten().copied();
     let reach = REACH * (all().reduce(DVec2::max)? - all().reduce(DVec2::min)?);
     let meet = |a: DVec2, b: DVec2| (a - b).abs().cmple(reach).all();
-    let mut left: Vec<usize> = (0..pieces.len()).collect();
+    let mut is_left = vec![true; pieces.len()];
     let mut loops = Vec::new();
-    while !left.is_empty() {
-        let first = left.remove(0);
-        // It runs towards the one that follows in the file, where one of its ends does.
+    while let Some(first) = is_left.iter().position(|left| *left) {
+        is_left[first] = false;
+        // The ones that follow in the file are asked first.
+        let next = |is_left: &[bool], after: usize, end: usize, at: DVec2| {
+            let following = (after + 1..pieces.len()).chain(0..after);
+            following.into_iter().find(|&k| is_left[k] && meet(ends[k][end], at))
+        };
+        // It runs towards the next one, where one of its ends does.
         let follows = |end: usize| {
-            left.iter()
-                .find(|&&k| k > first)
-                .is_some_and(|&k| ends[k].iter().any(|&at| meet(at, ends[first][end])))
+            let second = (first + 1..pieces.len()).find(|&k| is_left[k]);
+            second.is_some_and(|k| ends[k].iter().any(|&at| meet(at, ends[first][end])))
         };
         let turned = !follows(1) && follows(0);
         let mut order = vec![(first, turned)];
         let (start, mut at) = (ends[first][usize::from(turned)], ends[first][usize::from(!turned)]);
         while !meet(at, start) {
-            // The one that follows in the file is asked first.
-            let after = left.partition_point(|&k| k < order[order.len() - 1].0);
-            left.rotate_left(after);
-            let next = left.iter().position(|&k| meet(ends[k][0], at)).map(|place| (place, false));
-            let next =
-                next.or_else(|| left.iter().position(|&k| meet(ends[k][1], at)).map(|place| (place, true)));
-            let (place, turned) = next?;
-            let piece = left.remove(place);
-            left.sort_unstable();
+            let last = order[order.len() - 1].0;
+            let forwards = next(&is_left, last, 0, at).map(|k| (k, false));
+            let (piece, turned) = forwards.or_else(|| next(&is_left, last, 1, at).map(|k| (k, true)))?;
+            is_left[piece] = false;
             at = ends[piece][usize::from(!turned)];
             order.push((piece, turned));
         }
