@@ -55,13 +55,11 @@ impl FaceMesher<'_> {
 
     fn mesh_domain(&self, face: FaceId, surface: &Surface, mut domain: TrimDomain) -> FaceDraft {
         self.leave_room_for_facets(&mut domain);
-        let Some(mut filling) = Filling::new(surface, &domain, self.samples, self.tolerance, self.max_sites)
-        else {
-            return self.span_loops(face, "its parameters are out of range".into());
+        let filling = Filling::new(surface, &domain, self.samples, self.tolerance, self.max_sites);
+        let mut filling = match filling {
+            Ok(filling) => filling,
+            Err(reason) => return self.span_loops(face, reason.to_string()),
         };
-        if filling.is_tangled() {
-            return self.span_loops(face, "its boundary crosses itself all over".into());
-        }
         if !matches!(surface, Surface::Plane { .. }) {
             filling.refine();
         }

@@ -10,7 +10,7 @@ use crate::FaceVertex;
 use crate::crease::Creases;
 use crate::fringe::Fringe;
 use crate::seeds::seeds;
-use crate::triangulation::{InnerEdge, Triangulation};
+use crate::triangulation::{InnerEdge, Triangulation, Untriangulable};
 use crate::warp::Warp;
 
 /// A domain's triangulation with what its sites are in space.
@@ -116,14 +116,14 @@ const LEAST_SHARE: usize = 512;
 const MAX_ROUNDS: usize = 16;
 
 impl<'a> Filling<'a> {
-    /// The first triangulation of `domain`. `None` when its coordinates are unusable.
+    /// The first triangulation of `domain`, or why it has none.
     pub fn new(
         surface: &'a Surface,
         domain: &TrimDomain,
         samples: &EdgeSamples,
         tolerance: Tolerance,
         max_sites: usize,
-    ) -> Option<Self> {
+    ) -> Result<Self, Untriangulable> {
         let (low, high) = domain.uv_bounds();
         let warp = Warp::new(surface, low, high, tolerance, max_sites, has_pole(domain));
         let fringe = fringe(surface, domain, samples, tolerance);
@@ -160,7 +160,7 @@ impl<'a> Filling<'a> {
         sites.par_extend(placed.map(|(k, &uv)| filling.inner_site(uv, first_inner + k as u32)));
         filling.next_point += new.len() as u32;
         filling.sites = sites;
-        Some(filling)
+        Ok(filling)
     }
 
     fn place_corners(&mut self, domain: &TrimDomain, samples: &EdgeSamples) {
@@ -221,11 +221,6 @@ impl<'a> Filling<'a> {
     /// Whether the triangles end exactly at the domain's boundary.
     pub fn intact(&self) -> bool {
         self.triangulation.intact && !self.merged
-    }
-
-    /// Whether the domain's boundary crosses itself so often that there is no telling what is inside.
-    pub fn is_tangled(&self) -> bool {
-        self.triangulation.is_tangled()
     }
 
     /// Adds points until every inner edge and every triangle keeps the bounds.

@@ -73,7 +73,24 @@ struct Sides {
     outside: FxHashSet<u32>,
 }
 
-/// Sides that triangles' middles may be held against in one go.
+/// Why a domain has no triangulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Untriangulable {
+    OutOfRange,
+    Tangled,
+}
+
+impl std::fmt::Display for Untriangulable {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::OutOfRange => "its parameters are out of range",
+            Self::Tangled => "its boundary crosses itself all over",
+        })
+    }
+}
+
+/// Sides that triangles' middles may be held against in one go, and crossings of the boundary with itself that the
+/// triangulation may meet: both take about as long.
 const MAX_CROSSINGS: usize = 30_000_000;
 
 /// How far the plane is sheared and flattened before it is triangulated.
@@ -96,10 +113,18 @@ fn untame(p: DVec2) -> DVec2 {
 }
 
 impl Triangulation {
-    /// Triangulates the domain's corners and `inner` points ((u, v)). `None` when the coordinates are unusable.
-    pub fn new(domain: &TrimDomain, inner: &[DVec2], warp: &Warp) -> Option<Self> {
+    /// Triangulates the domain's corners and `inner` points ((u, v)).
+    ///
+    /// # Errors
+    /// When coordinates are out of range, or the boundary crosses itself so often that there is no telling what is
+    /// inside.
+    pub fn new(domain: &TrimDomain, inner: &[DVec2], warp: &Warp) -> Result<Self, Untriangulable> {
         let polygons: Vec<Vec<DVec2>> =
             domain.loops.iter().map(|l| l.uvs().map(|uv| tame(warp.map(uv))).collect()).collect();
+        let strips = Strips::new(&polygons);
+        if strips.crossings_above(MAX_CROSSINGS) {
+            return Err(Untriangulable::Tangled);
+        }
         let mut sites: Vec<Site> = Vec::new();
         let mut known: FxHashMap<(u64, u64), u32> = FxHashMap::default();
         let mut site_at = |at: DVec2, sites: &mut Vec<Site>| {
@@ -119,7 +144,8 @@ impl Triangulation {
         let mut edges: Vec<[usize; 2]> = uses.keys().map(|&(a, b)| [a as usize, b as usize]).collect();
         edges.sort_unstable();
         let mut refused = 0;
-        let cdt = Cdt::try_bulk_load_cdt(sites, edges.clone(), |_| refused += 1).ok()?;
+        let cdt = Cdt::try_bulk_load_cdt(sites, edges.clone(), |_| refused += 1)
+            .map_err(|_| Untriangulable::OutOfRange)?;
         // A side that runs through a corner is there in pieces, which may be sides already.
         let is_there = |[a, b]: &[usize; 2]| {
             let [a, b] = [a, b].map(|&site| FixedVertexHandle::from_index(site));
@@ -127,8 +153,8 @@ impl Triangulation {
         };
         let intact = refused == 0 && cdt.num_constraints() == edges.len() && edges.iter().all(is_there);
         let slits = uses.into_iter().filter(|&(_, n)| n % 2 == 0).map(|(pair, _)| pair).collect();
-        let domain = Strips::new(&polygons);
-        Some(Self { cdt, site_of_corner, inner_is_new, slits, intact, sides: None, domain })
+        let new = Self { cdt, site_of_corner, inner_is_new, slits, intact, sides: None, domain: strips };
+        if new.is_tangled() { Err(Untriangulable::Tangled) } else { Ok(new) }
     }
 
     /// Number of sites.
@@ -339,16 +365,35 @@ mod tests {
     use trimloop_geom::{Frame, Surface};
     use trimloop_trim::{Tolerance, TrimLoop, TrimVertex};
 
-    #[test]
-    fn a_point_on_a_site_leaves_the_site_as_it_is() {
-        let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+    /// A domain in a plane between one loop's corners, and its warp.
+    fn in_a_plane(corners: &[DVec2]) -> (TrimDomain, Warp) {
         let vertex = |(k, &uv): (usize, &DVec2)| TrimVertex { uv, point: k as u32 };
         let vertices = corners.iter().enumerate().map(vertex).collect();
         let loops = vec![TrimLoop { vertices, turned: false }];
-        let domain = TrimDomain { loops, own_points: Vec::new(), own_base: 4, diagnostics: Vec::new() };
+        let own_base = corners.len() as u32;
+        let domain = TrimDomain { loops, own_points: Vec::new(), own_base, diagnostics: Vec::new() };
         let surface = Surface::Plane { frame: Frame::WORLD };
         let tolerance = Tolerance { linear_mm: 0.1, angular_rad: 0.3 };
-        let warp = Warp::new(&surface, DVec2::ZERO, DVec2::ONE, tolerance, 100, false);
+        let (low, high) = domain.uv_bounds();
+        (domain, Warp::new(&surface, low, high, tolerance, 100, false))
+    }
+
+    #[test]
+    fn a_boundary_that_crosses_itself_all_over_is_refused_before_it_is_triangulated() {
+        let star = |count: usize, step: usize| -> Vec<DVec2> {
+            let at = |k| std::f64::consts::TAU * (k * step % count) as f64 / count as f64;
+            (0..count).map(|k| DVec2::from_angle(at(k))).collect()
+        };
+        let (domain, warp) = in_a_plane(&star(200_001, 100_000));
+        let refused = Triangulation::new(&domain, &[], &warp).err();
+        assert_eq!(refused, Some(Untriangulable::Tangled));
+        let (domain, warp) = in_a_plane(&star(5, 2));
+        assert!(Triangulation::new(&domain, &[], &warp).is_ok_and(|it| !it.intact));
+    }
+
+    #[test]
+    fn a_point_on_a_site_leaves_the_site_as_it_is() {
+        let (domain, warp) = in_a_plane(&[DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y]);
         let mut triangulation = Triangulation::new(&domain, &[], &warp).expect("a square");
         assert_eq!(triangulation.insert(warp.map(DVec2::ONE), 0), None);
         assert_eq!(triangulation.insert(warp.map(DVec2::splat(0.5)), 0), Some(4));
