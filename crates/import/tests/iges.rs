@@ -463,3 +463,31 @@ fn planes_lie_along_the_coordinate_planes() {
         assert!((frame.x - x).length() < 1e-12, "{normal}: {}", frame.x);
     }
 }
+
+/// A cylinder whose mantle is damaged: its rims in parameters do not lie in the planes that its rims in the model close,
+/// and a plane keeps a rim that lies in it.
+#[test]
+fn a_plane_is_not_sewn_to_a_rim_beside_it() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/iges_opencascade/cylinder_faces.igs");
+    let whole = std::fs::read_to_string(path).expect("a fixture");
+    let farthest_off = |text: &str| {
+        let file = IgesFile::parse(text.as_bytes()).expect("a file");
+        let model = import_iges(&file).expect("a model");
+        let part = &model.parts[0];
+        let mut off: f64 = 0.0;
+        for face in &part.faces {
+            let FaceGeometry::Surface(surface) = &face.geometry else { panic!("a surface") };
+            let trimloop_geom::Surface::Plane { frame } = &**surface else { continue };
+            for coedge in face.loops.iter().flat_map(|bound| &bound.coedges) {
+                let edge = &part.edges[coedge.edge as usize];
+                let at = |k: u32| edge.curve.point(edge.range.at(f64::from(k) / 16.0));
+                off = (0..16).map(|k| (at(k) - frame.origin).dot(frame.z).abs()).fold(off, f64::max);
+            }
+        }
+        off
+    };
+    assert!(farthest_off(&whole) < 1e-9);
+    let generatrix = "110,10.,0.,-30.,10.,0.,0.;";
+    assert!(whole.contains(generatrix));
+    assert!(farthest_off(&whole.replace(generatrix, "110,12.,0.,-25.,12.,0.,-5.;")) < 1e-9);
+}

@@ -111,13 +111,22 @@ fn sew_told(part: &mut Part, faces: &[FaceId], told: &[(EdgeId, Arc<(Curve, Inte
         }
     }
     for &face in faces {
-        let coedges = part.faces[face as usize].loops.iter_mut().flat_map(|bound| &mut bound.coedges);
-        for coedge in coedges {
-            if let Some(&(edge, turned)) = replaced.get(&coedge.edge) {
+        let Face { geometry, loops, .. } = &mut part.faces[face as usize];
+        for coedge in loops.iter_mut().flat_map(|bound| &mut bound.coedges) {
+            if let Some(&(edge, turned)) = replaced.get(&coedge.edge)
+                && runs_on(&part.edges[edge as usize], geometry)
+            {
                 *coedge = Coedge { edge, reversed: coedge.reversed != turned, pcurve: None };
             }
         }
     }
+}
+
+/// Whether a ring lies on a face's surface, as far as some of its points tell.
+fn runs_on(ring: &Edge, face: &FaceGeometry) -> bool {
+    let FaceGeometry::Surface(surface) = face else { return false };
+    let off = |share: f64| surface.project(ring.curve.point(ring.range.at(share)), None).distance;
+    [0.0, 0.31, 0.5, 0.72].into_iter().all(|share| off(share) <= LEAST_REACH_MM)
 }
 
 /// About the middle of a ring, and how far from there it runs.
