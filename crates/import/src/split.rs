@@ -64,7 +64,7 @@ impl Ends {
     fn within(&self, bounds: Aabb) -> Vec<DVec3> {
         let inside = |p: &DVec3| p.cmpge(bounds.min).all() && p.cmple(bounds.max).all();
         let (low, high) = (self.key(bounds.min), self.key(bounds.max));
-        let count = (0..3).map(|k| (high[k] - low[k]) as f64 + 1.0).product::<f64>();
+        let count = (0..3).map(|k| high[k] as f64 - low[k] as f64 + 1.0).product::<f64>();
         if !(count <= self.cells.len() as f64) {
             return self.points.iter().copied().filter(inside).collect();
         }
@@ -207,4 +207,25 @@ fn replaced(coedges: &[Coedge], parts: &FxHashMap<EdgeId, Vec<EdgeId>>) -> Vec<C
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_are_looked_up_in_boxes_of_any_size() {
+        let points: Vec<DVec3> = (0..1000).map(|k| DVec3::new(f64::from(k) * 1e-3, 0.0, 0.0)).collect();
+        let mut ends = Ends { points, low: DVec3::ZERO, cell: 1e-9, cells: FxHashMap::default() };
+        for index in 0..ends.points.len() {
+            let key = ends.key(ends.points[index]);
+            ends.cells.entry(key).or_default().push(index as u32);
+        }
+        let within =
+            |half: f64| ends.within(Aabb { min: DVec3::splat(-half), max: DVec3::splat(half) }).len();
+        assert_eq!(
+            [1e-10, 0.5005, 1e9, 1e12, 1e300, f64::INFINITY].map(within),
+            [1, 501, 1000, 1000, 1000, 1000]
+        );
+    }
 }

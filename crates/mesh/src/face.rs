@@ -11,6 +11,7 @@ use crate::FaceVertex;
 use crate::boundary::{self, NetEdges};
 use crate::draft::FaceDraft;
 use crate::filling::Filling;
+use crate::limit::SiteLimit;
 use crate::{FaceStatus, ear_clipping};
 
 /// What all faces of a part are meshed with.
@@ -18,7 +19,7 @@ pub(crate) struct FaceMesher<'a> {
     pub part: &'a Part,
     pub samples: &'a EdgeSamples,
     pub tolerance: Tolerance,
-    pub max_sites: usize,
+    pub limit: SiteLimit,
 }
 
 impl FaceMesher<'_> {
@@ -55,7 +56,8 @@ impl FaceMesher<'_> {
 
     fn mesh_domain(&self, face: FaceId, surface: &Surface, mut domain: TrimDomain) -> FaceDraft {
         self.leave_room_for_facets(&mut domain);
-        let filling = Filling::new(surface, &domain, self.samples, self.tolerance, self.max_sites);
+        let max_sites = self.limit.of(surface, &domain);
+        let filling = Filling::new(surface, &domain, self.samples, self.tolerance, max_sites);
         let mut filling = match filling {
             Ok(filling) => filling,
             Err(reason) => return self.span_loops(face, reason.to_string()),

@@ -33,6 +33,8 @@ pub(crate) struct Filling<'a> {
     next_point: u32,
     /// The largest deviation that was accepted.
     pub max_deviation_mm: f64,
+    /// The largest one found in the last round, which was not.
+    unmet_mm: f64,
     /// How far the edges lie off the surface.
     pub max_lift_mm: f64,
     /// Whether everything that was measured keeps the bounds.
@@ -147,6 +149,7 @@ impl<'a> Filling<'a> {
             first_inner,
             next_point: first_inner,
             max_deviation_mm: 0.0,
+            unmet_mm: 0.0,
             max_lift_mm: 0.0,
             within_bounds: true,
             merged: false,
@@ -228,27 +231,34 @@ impl<'a> Filling<'a> {
         let mut fresh = 0;
         for round in 0..=MAX_ROUNDS {
             if self.triangulation.is_tangled() {
-                self.within_bounds = false;
-                return;
+                return self.give_up();
             }
             let wanted = self.violations(fresh);
             if wanted.is_empty() {
                 return;
             }
             if round == MAX_ROUNDS || self.sites.len() + wanted.len() > self.max_sites {
-                self.within_bounds = false;
-                return;
+                return self.give_up();
             }
             fresh = self.sites.len() as u32;
             if let Some(inside) = self.inside.take() {
                 self.triangulation.remember(&inside);
             }
             for (at, hint) in wanted {
+                if self.triangulation.is_uneven() {
+                    return self.give_up();
+                }
                 if self.triangulation.insert(at, hint).is_some() {
                     self.place_inner(self.warp.unmap(at));
                 }
             }
         }
+    }
+
+    /// Leaves what the last round found as it is.
+    fn give_up(&mut self) {
+        self.within_bounds = false;
+        self.max_deviation_mm = self.max_deviation_mm.max(self.unmet_mm);
     }
 
     /// Warped points at which edges or triangles with a site from `fresh` on break a bound, each with a site nearby.
@@ -261,7 +271,7 @@ impl<'a> Filling<'a> {
         sides.clear();
         sides.resize(self.triangulation.face_count(), MeasuredSides::default());
         let mut out = Vec::new();
-        let mut worst = self.max_deviation_mm;
+        let (mut worst, mut unmet) = (self.max_deviation_mm, 0.0_f64);
         let mut edges =
             self.triangulation.inner_edges(fresh).filter(|edge| edge.faces.iter().any(|&f| is_inside(f)));
         let (mut batch, mut measured) = (Vec::new(), Vec::new());
@@ -283,6 +293,7 @@ impl<'a> Filling<'a> {
                 match measured.split {
                     Some(at) => {
                         faces.iter().for_each(|&f| sides[f].broken = true);
+                        unmet = unmet.max(measured.off);
                         out.push((at, edge.sites[0]));
                     }
                     None => {
@@ -303,11 +314,15 @@ impl<'a> Filling<'a> {
             }
             let (at, off) = self.triangle_violation(t);
             match at {
-                Some(at) if self.is_open(at) => out.push((at, t[0])),
+                Some(at) if self.is_open(at) => {
+                    unmet = unmet.max(off);
+                    out.push((at, t[0]));
+                }
                 _ => worst = worst.max(off),
             }
         }
         self.max_deviation_mm = worst;
+        self.unmet_mm = unmet;
         self.sides = sides;
         self.inside = (!all_inside).then_some(inside);
         out

@@ -11,6 +11,7 @@ mod ear_clipping;
 mod face;
 mod filling;
 mod fringe;
+mod limit;
 mod monitor;
 mod options;
 mod orientation;
@@ -32,20 +33,25 @@ use trimloop_brep::{Diagnostic, FreePoint, Part, Severity};
 use trimloop_trim::{EdgeSamples, Tolerance, sample_curve, sample_edges};
 
 use crate::face::FaceMesher;
+use crate::limit::SiteLimit;
 use crate::size::{most_mm, size_mm};
 
 /// Meshes one part.
 ///
 /// The result holds one [`FaceMesh`] per face; a face that cannot be meshed is [`FaceStatus::Lost`] and costs no other.
 pub fn mesh_part(part: &Part, options: &MeshOptions, monitor: &dyn Monitor) -> Result<PartMesh, Cancelled> {
-    let deflection = deflection_mm(part, options.linear_deflection);
+    let (deflection, size) = deflection_and_size_mm(part, options.linear_deflection);
     // Bounds are measured at a few points per chord and triangle; the margin covers what lies between them.
     let tolerance =
         Tolerance { linear_mm: deflection * 0.9, angular_rad: options.angular_deflection_rad * 0.99 }
             .clamped();
     let samples = sample_edges(part, tolerance);
-    let max_sites = (options.max_triangles / 4).max(1000);
-    let mesher = FaceMesher { part, samples: &samples, tolerance, max_sites };
+    let limit = SiteLimit {
+        most: (options.max_triangles / 4).max(1000),
+        size_in_deflections: size / deflection,
+        turn_in_deflections: std::f64::consts::TAU / tolerance.angular_rad,
+    };
+    let mesher = FaceMesher { part, samples: &samples, tolerance, limit };
     let drafts: Result<Vec<_>, Cancelled> = (0..part.faces.len() as u32)
         .into_par_iter()
         .map(|face| {
@@ -88,18 +94,21 @@ fn line(curve: &trimloop_brep::FreeCurve, tolerance: Tolerance) -> Vec<DVec3> {
     if points.iter().all(|p| p.is_finite()) { points } else { Vec::new() }
 }
 
-/// The bound in millimetres, never zero.
-fn deflection_mm(part: &Part, deflection: LinearDeflection) -> f64 {
+/// The bound in millimetres, never zero, and the part's size; more than that where the bound does not ask for it.
+fn deflection_and_size_mm(part: &Part, deflection: LinearDeflection) -> (f64, f64) {
     let least = |size: f64| (size * 1e-7).max(1e-9);
-    match deflection {
-        // What surely is enough need not be compared with the exact size.
-        LinearDeflection::Absolute(mm) if mm >= least(most_mm(part)) => mm,
-        LinearDeflection::Absolute(mm) => mm.max(least(size_mm(part))),
+    let (wanted, size) = match deflection {
+        LinearDeflection::Absolute(mm) => {
+            // What surely is enough need not be compared with the exact size.
+            let most = most_mm(part);
+            (mm, if most.is_finite() && mm >= least(most) { most } else { size_mm(part) })
+        }
         LinearDeflection::Relative(share) => {
             let size = size_mm(part);
-            (size * share).max(least(size))
+            (size * share, size)
         }
-    }
+    };
+    (wanted.max(least(size)), size)
 }
 
 /// Edges that lie off their surfaces by more than the bound.

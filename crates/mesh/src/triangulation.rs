@@ -42,6 +42,8 @@ pub(crate) struct Triangulation {
     /// What is known since the sides were first told; nothing where that does not hold for what was added since.
     sides: Option<Sides>,
     domain: Strips,
+    /// Edges that sites had when they were added, in all: the work that adding them took.
+    spokes: usize,
 }
 
 /// An edge that is no boundary.
@@ -92,6 +94,11 @@ impl std::fmt::Display for Untriangulable {
 /// Sides that triangles' middles may be held against in one go, and crossings of the boundary with itself that the
 /// triangulation may meet: both take about as long.
 const MAX_CROSSINGS: usize = 30_000_000;
+
+/// Edges that added sites may have when they are added: in all, and where that is more for each site. Six are usual;
+/// there are thousands where sites lie close together along lines that are far apart.
+const MAX_SPOKES: usize = 1_000_000;
+const SPOKES_EACH: usize = 32;
 
 /// How far the plane is sheared and flattened before it is triangulated.
 const SHEAR: f64 = 1e-7;
@@ -153,7 +160,8 @@ impl Triangulation {
         };
         let intact = refused == 0 && cdt.num_constraints() == edges.len() && edges.iter().all(is_there);
         let slits = uses.into_iter().filter(|&(_, n)| n % 2 == 0).map(|(pair, _)| pair).collect();
-        let new = Self { cdt, site_of_corner, inner_is_new, slits, intact, sides: None, domain: strips };
+        let new =
+            Self { cdt, site_of_corner, inner_is_new, slits, intact, sides: None, domain: strips, spokes: 0 };
         if new.is_tangled() { Err(Untriangulable::Tangled) } else { Ok(new) }
     }
 
@@ -179,8 +187,10 @@ impl Triangulation {
         let before = self.cdt.num_vertices();
         let vertex = self.cdt.insert_with_hint(Site { at: tame(at), index }, hint).ok()?;
         if self.cdt.num_vertices() > before {
+            let vertex = self.cdt.vertex(vertex);
+            self.spokes += vertex.out_edges().count();
             // On a boundary it has triangles on both sides of it.
-            if self.cdt.vertex(vertex).out_edges().any(|edge| edge.is_constraint_edge()) {
+            if vertex.out_edges().any(|edge| edge.is_constraint_edge()) {
                 self.sides = None;
             }
             return Some(index);
@@ -194,6 +204,11 @@ impl Triangulation {
     /// crosses itself, and runs to and fro.
     pub fn is_tangled(&self) -> bool {
         !self.intact && self.cdt.num_inner_faces().saturating_mul(self.domain.load()) > MAX_CROSSINGS
+    }
+
+    /// Whether the sites lie so unevenly that to add more takes too long.
+    pub fn is_uneven(&self) -> bool {
+        self.spokes > MAX_SPOKES.max(SPOKES_EACH * self.len())
     }
 
     /// Per face of the triangulation (by index) whether it lies inside the domain.
@@ -399,5 +414,22 @@ mod tests {
         assert_eq!(triangulation.insert(warp.map(DVec2::splat(0.5)), 0), Some(4));
         assert!(triangulation.triangles().all(|(_, sites)| sites.iter().all(|&site| site < 5)));
         assert_eq!(triangulation.triangles().filter(|(_, sites)| sites.contains(&2)).count(), 2);
+    }
+
+    /// Between two dense rows that are far apart every point sees thousands of others.
+    #[test]
+    fn points_between_dense_rows_are_given_up() {
+        const COUNT: u32 = 4000;
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(DVec2::from_array);
+        let (domain, warp) = in_a_plane(&corners);
+        let at = |k: u32, y: f64| DVec2::new((f64::from(k) + 0.5) / f64::from(COUNT), y);
+        let rows: Vec<DVec2> = (0..COUNT).flat_map(|k| [at(k, 0.2), at(k, 0.8)]).collect();
+        let mut triangulation = Triangulation::new(&domain, &rows, &warp).expect("a square");
+        let mut added = 0;
+        while added < COUNT && !triangulation.is_uneven() {
+            triangulation.insert(warp.map(at(added, 0.5)), 0);
+            added += 1;
+        }
+        assert!((100..COUNT).contains(&added), "{added}");
     }
 }

@@ -453,3 +453,30 @@ fn a_spike_of_no_width_adds_no_area() {
     assert!((area(&mesh) - 4.0).abs() < 1e-12, "{}", area(&mesh));
     assert_eq!(mesh.faces[0].status, FaceStatus::Exact);
 }
+
+/// A control point a million times as far away as the part is large, as in damaged files: the spike that it makes would
+/// ask for millions of triangles.
+#[test]
+fn a_spike_far_beyond_the_part_is_left_above_the_bound() {
+    let at = |k: u32| {
+        let [x, y] = [f64::from(k / 7), f64::from(k % 7)];
+        let z = if x % 6.0 == 0.0 || y % 6.0 == 0.0 { 0.0 } else { (x + 2.0 * y).sin() };
+        DVec3::new(if k == 24 { 1e8 } else { 5.0 * x }, 5.0 * y, z)
+    };
+    let knots = || vec![0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 4.0, 4.0];
+    let sheet = NurbsSurface::new([3, 3], 7, 7, (0..49).map(at).collect(), Vec::new(), [knots(), knots()]);
+    let sheet = sheet.expect("a sheet");
+    let mut builder = Builder::default();
+    let corners = [[0.0, 0.0], [30.0, 0.0], [30.0, 30.0], [0.0, 30.0]].map(|[x, y]| DVec3::new(x, y, 0.0));
+    let vertices = corners.map(|point| builder.vertex(point));
+    let sides = [0, 1, 2, 3].map(|k| {
+        let (from, to) = (k, (k + 1) % 4);
+        let line = Curve::Line { origin: corners[from], direction: corners[to] - corners[from] };
+        (builder.edge(vertices[from], vertices[to], line, Interval::new(0.0, 1.0)), false)
+    });
+    builder.face(Surface::Nurbs(sheet), true, &[&sides]);
+    let mesh = builder.mesh(false, 0.03);
+    assert!(matches!(mesh.faces[0].status, FaceStatus::Approximated(_)), "{:?}", mesh.faces[0].status);
+    assert!(mesh.faces[0].triangles.len() < 1_000_000, "{}", mesh.faces[0].triangles.len());
+    assert!(mesh.faces[0].max_deviation_mm > 1.0, "and says how far it is off");
+}

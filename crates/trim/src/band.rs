@@ -366,7 +366,7 @@ impl Obstacles {
         self.segments.iter().all(|&(a, b)| {
             let first = ((low - a.x.max(b.x)) / plane.period).ceil() as i64;
             let last = ((high - a.x.min(b.x)) / plane.period).floor() as i64;
-            (first..=last.min(first + 4)).all(|k| {
+            (first..=last.min(first.saturating_add(4))).all(|k| {
                 let shift = DVec2::new(k as f64 * plane.period, 0.0);
                 !segments_cross(p, q, a + shift, b + shift)
             })

@@ -1,5 +1,6 @@
 //! Every edge of a part as one polyline, shared by all its faces, with its image in each of their parameter planes.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -87,7 +88,7 @@ pub fn sample_edges(part: &Part, tolerance: Tolerance) -> EdgeSamples {
             let singular = grounds.iter().flat_map(|g| g.singularities.iter()).map(|s| s.point).collect();
             let (range, same_sense) = (*range, *same_sense);
             let line = CurveLine { curve, range, same_sense, ends, closed, singular, snap, tolerance };
-            Sampler { line, grounds }.run()
+            Sampler { line, grounds, asked: Cell::new(0), searches: Cell::new(0) }.run()
         })
         .collect();
     let mut out = EdgeSamples { points: part.vertices.iter().map(|v| v.point).collect(), edges: Vec::new() };
@@ -199,7 +200,18 @@ impl Polyline {
 struct Sampler<'a> {
     line: CurveLine<'a>,
     grounds: &'a [Ground],
+    /// Samples that the surfaces asked for.
+    asked: Cell<u32>,
+    /// Feet that were searched for all over a surface.
+    searches: Cell<u32>,
 }
+
+/// Samples of one edge that its surfaces may ask for, beside those of its curve.
+const MAX_ASKED: u32 = 1 << 16;
+
+/// Feet of one edge that are searched for all over its surfaces, where none is found nearby: an edge that is off its
+/// surface all along need not be told so again and again.
+const MAX_SEARCHES: u32 = 256;
 
 /// What is known of where a sample's foot lies on a surface.
 enum Hint {
@@ -296,9 +308,10 @@ impl Sampler<'_> {
     fn project(&self, ground: &Ground, point: DVec3, hint: Option<DVec2>) -> (SurfacePoint, Option<DVec3>) {
         let enough = self.line.tolerance.linear_mm * 0.1;
         let found = ground.surface.project_with_normal(point, hint, enough);
-        if hint.is_none() || found.0.distance <= enough {
+        if hint.is_none() || found.0.distance <= enough || self.searches.get() >= MAX_SEARCHES {
             return found;
         }
+        self.searches.set(self.searches.get() + 1);
         let other = ground.surface.project_with_normal(point, None, 0.0);
         if other.0.distance < found.0.distance * 0.5 { other } else { found }
     }
@@ -319,6 +332,10 @@ impl Sampler<'_> {
         {
             return;
         }
+        let is_astray = self.searches.get() >= MAX_SEARCHES && self.is_off(a) && self.is_off(b);
+        if is_astray || self.asked.get() >= MAX_ASKED {
+            return;
+        }
         let mut sides = a.sides.iter().zip(&b.sides).zip(self.grounds);
         let is_long = depth == 0 || !between.is_empty();
         if !sides.any(|((fa, fb), g)| self.turns(g, fa, fb) || self.sinks(g, [fa, fb], is_long)) {
@@ -333,9 +350,15 @@ impl Sampler<'_> {
             }
         };
         let middle = self.sample(&middle, Some(a), Some(b));
+        self.asked.set(self.asked.get() + 1);
         self.keep_to_surfaces(a, &middle, before, depth + 1, out);
         out.push(middle.clone());
         self.keep_to_surfaces(&middle, b, after, depth + 1, out);
+    }
+
+    /// Whether a sample lies off one of the surfaces.
+    fn is_off(&self, sample: &Sample) -> bool {
+        sample.sides.iter().any(|foot| foot.distance > self.line.tolerance.linear_mm)
     }
 
     /// Whether a chord sinks into a free-form surface (or rises from it) between its ends, which the curve need not do

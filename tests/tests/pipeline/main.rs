@@ -6,6 +6,7 @@ mod figures;
 mod mask;
 mod repeatable;
 mod watertight;
+mod wild;
 
 use std::panic;
 use std::sync::LazyLock;
