@@ -56,6 +56,9 @@ impl FaceMesher<'_> {
 
     fn mesh_domain(&self, face: FaceId, surface: &Surface, mut domain: TrimDomain) -> FaceDraft {
         self.leave_room_for_facets(&mut domain);
+        if turns(surface, &domain) > MAX_TURNS {
+            return self.span_loops(face, "its boundary goes round the surface thousands of times".into());
+        }
         let max_sites = self.limit.of(surface, &domain);
         let filling = Filling::new(surface, &domain, self.samples, self.tolerance, max_sites);
         let mut filling = match filling {
@@ -204,6 +207,16 @@ impl FaceMesher<'_> {
         }
         draft
     }
+}
+
+/// A strip may wind round a surface so often; samples of what winds more often say nothing of where it runs.
+const MAX_TURNS: f64 = 4096.0;
+
+/// How many turns of a surface a domain spans.
+fn turns(surface: &Surface, domain: &TrimDomain) -> f64 {
+    let (low, high) = domain.uv_bounds();
+    let turns = surface.periods().into_iter().zip((high - low).to_array());
+    turns.map(|(period, length)| period.map_or(0.0, |period| length / period)).fold(0.0, f64::max)
 }
 
 /// The domain's directed boundary as points; cuts, which are run over both ways, drop out.

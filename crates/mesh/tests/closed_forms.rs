@@ -480,3 +480,23 @@ fn a_spike_far_beyond_the_part_is_left_above_the_bound() {
     assert!(mesh.faces[0].triangles.len() < 1_000_000, "{}", mesh.faces[0].triangles.len());
     assert!(mesh.faces[0].max_deviation_mm > 1.0, "and says how far it is off");
 }
+
+/// A strip that winds round a cylinder sixteen thousand times is no face that anything could be made of.
+#[test]
+fn a_boundary_that_winds_for_ever_is_spanned_by_plain_triangles() {
+    let mut builder = Builder::default();
+    let surface = Arc::new(cylinder(1.0));
+    let corners =
+        [[0.0, 0.0], [1e5, 100.0], [1e5, 100.5], [0.0, 0.5]].map(|[u, v]: [f64; 2]| DVec3::new(u, v, 0.0));
+    let vertices = corners.map(|uv| builder.vertex(surface.point(uv.truncate())));
+    let sides = [0, 1, 2, 3].map(|k| {
+        let (from, to) = (k, (k + 1) % 4);
+        let line = Curve::Line { origin: corners[from], direction: corners[to] - corners[from] };
+        let curve = Curve::OnSurface { surface: surface.clone(), pcurve: Arc::new(line) };
+        (builder.edge(vertices[from], vertices[to], curve, Interval::new(0.0, 1.0)), false)
+    });
+    builder.face(cylinder(1.0), true, &[&sides]);
+    let mesh = builder.mesh(false, 0.1);
+    let FaceStatus::Approximated(reason) = &mesh.faces[0].status else { panic!("not exact") };
+    assert!(reason.contains("thousands of times"), "{reason}");
+}
