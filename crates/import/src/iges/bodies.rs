@@ -11,6 +11,7 @@ use trimloop_brep::{
 };
 use trimloop_geom::{Curve, Interval, Surface};
 
+use super::face::lies_on;
 use super::look::levels_of;
 use super::shape::ShapeBuilder;
 use crate::sew::{coincide, free_edges, reaches_mm, sew_body, turns_back};
@@ -114,19 +115,14 @@ fn sew_told(part: &mut Part, faces: &[FaceId], told: &[(EdgeId, Arc<(Curve, Inte
         let Face { geometry, loops, .. } = &mut part.faces[face as usize];
         for coedge in loops.iter_mut().flat_map(|bound| &mut bound.coedges) {
             if let Some(&(edge, turned)) = replaced.get(&coedge.edge)
-                && runs_on(&part.edges[edge as usize], geometry)
+                && let Edge { curve, range, .. } = &part.edges[edge as usize]
+                && let FaceGeometry::Surface(surface) = geometry
+                && lies_on(curve, *range, None, surface, LEAST_REACH_MM)
             {
                 *coedge = Coedge { edge, reversed: coedge.reversed != turned, pcurve: None };
             }
         }
     }
-}
-
-/// Whether a ring lies on a face's surface, as far as some of its points tell.
-fn runs_on(ring: &Edge, face: &FaceGeometry) -> bool {
-    let FaceGeometry::Surface(surface) = face else { return false };
-    let off = |share: f64| surface.project(ring.curve.point(ring.range.at(share)), None).distance;
-    [0.0, 0.31, 0.5, 0.72].into_iter().all(|share| off(share) <= LEAST_REACH_MM)
 }
 
 /// About the middle of a ring, and how far from there it runs.

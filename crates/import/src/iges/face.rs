@@ -356,7 +356,9 @@ impl FaceReader<'_> {
         let reach = self.uncertainty_mm.max(1e-3) * if prefers_plane { 10.0 } else { 100.0 };
         if let Ok(pieces) = &model
             && !prefers_plane
-            && pieces.iter().all(|piece| lies_on(piece, surface, reach))
+            && pieces
+                .iter()
+                .all(|piece| lies_on(&piece.curve, piece.range, piece.image.as_deref(), surface, reach))
         {
             return model;
         }
@@ -442,13 +444,20 @@ fn natural_bound(surface: &Arc<Surface>, domain: [Interval; 2], entry: u32) -> O
     (!pieces.is_empty()).then_some(BoundDraft { entry, outer: true, pieces })
 }
 
-/// Whether a curve lies within `reach` of a surface.
-fn lies_on(piece: &Piece, surface: &Surface, reach: f64) -> bool {
+/// Whether a curve lies within `reach` of a surface, by a few of its points. `image` is the curve in the surface's
+/// parameters, where that is known.
+pub(super) fn lies_on(
+    curve: &Curve,
+    range: Interval,
+    image: Option<&Curve>,
+    surface: &Surface,
+    reach: f64,
+) -> bool {
     let mut hint = None;
     [0.0, 0.31, 0.72, 1.0].into_iter().all(|share| {
-        let t = piece.range.at(share);
-        let point = piece.curve.point(t);
-        let image = piece.image.as_ref().map(|image| image.point(t).truncate());
+        let t = range.at(share);
+        let point = curve.point(t);
+        let image = image.map(|image| image.point(t).truncate());
         if image.is_some_and(|uv| surface.point(uv).distance(point) <= reach) {
             return true;
         }
